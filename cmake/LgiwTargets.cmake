@@ -1,0 +1,40 @@
+# Targets of this project: lgiw_library(room SOURCES... LIBS...), lgiw_tool(name ...), lgiw_test(name ...).
+
+add_library(lgiw_options INTERFACE)
+target_include_directories(lgiw_options INTERFACE ${PROJECT_SOURCE_DIR}/lib)
+target_compile_options(lgiw_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas>
+  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${LGIW_WERROR}>>:-Werror>)
+if(LGIW_SANITIZE)
+  target_compile_options(lgiw_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(lgiw_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(lgiw_library room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
+  add_library(lgiw_${room} STATIC ${ARG_SOURCES})
+  target_link_libraries(lgiw_${room} PUBLIC lgiw_options ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
+endfunction()
+
+function(lgiw_tool name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE lgiw_options ${ARG_LIBS})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+endfunction()
+
+# A GoogleTest program of its own; its cases appear one by one in ctest. LGIW_TEST_DATA is tests/data, LGIW_SOURCE_DIR the
+# repository.
+function(lgiw_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE lgiw_options ${ARG_LIBS} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    LGIW_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LGIW_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data"
+    LGIW_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  include(GoogleTest)
+  gtest_discover_tests(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,78 @@
+// A thin RAII layer over HDF5's C API: every failure becomes an exception with the file and the object in it.
+#pragma once
+
+#include <hdf5.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lgiw::h5 {
+
+template <class T> hid_t native_type();   // float, double, int64_t, int32_t, uint32_t, uint8_t
+
+/// Closes an identifier of any kind.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(hid_t id) : id_(id) {}
+  ~Handle();
+  Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
+  Handle& operator=(Handle&& other) noexcept;
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  hid_t id() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+};
+
+using Shape = std::vector<hsize_t>;
+
+/// An HDF5 file. Object times are never tracked, so that reruns are byte-identical. Reading errors (not HDF5, truncated,
+/// missing or wrongly shaped objects) are InputError; writing errors are WorkError.
+class File {
+ public:
+  static File create(const std::string& path);
+  static File open_read(const std::string& path);
+  static File open_write(const std::string& path);   // read and write an existing file
+
+  const std::string& path() const { return path_; }
+  bool exists(const std::string& object) const;      // every link on the way too
+  void make_group(const std::string& group);         // with parents
+
+  // Whole datasets. write() makes parent groups. chunked_deflate: chunks of about 1 MiB, shuffle + deflate 1.
+  template <class T> void write(const std::string& name, const T* data, const Shape& shape, bool deflate = false);
+  template <class T> void write(const std::string& name, const std::vector<T>& data) { write(name, data.data(), Shape{data.size()}); }
+  template <class T> std::vector<T> read(const std::string& name, Shape* shape = nullptr) const;  // converts number types
+  Shape shape(const std::string& name) const;
+
+  // Parts: fixed-size datasets filled slab by slab, and extendible ones appended along the first axis.
+  template <class T> void create_dataset(const std::string& name, const Shape& shape, bool extendible = false, bool deflate = false);
+  template <class T> void write_slab(const std::string& name, const T* data, const Shape& start, const Shape& count);
+  template <class T> void append(const std::string& name, const T* data, const Shape& count);
+  template <class T> void read_slab(const std::string& name, T* data, const Shape& start, const Shape& count) const;
+
+  // Attributes of a group or dataset ("/" for the file).
+  void set_attribute(const std::string& object, const std::string& name, const std::string& text);  // fixed-length ASCII/UTF-8
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  void set_attribute(const std::string& object, const std::string& name, int64_t value);
+  void set_attribute(const std::string& object, const std::string& name, const std::vector<int64_t>& values);
+  void set_attribute(const std::string& object, const std::string& name, const std::vector<double>& values);
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+  std::vector<double> numbers_attribute(const std::string& object, const std::string& name) const;
+
+  void flush();
+  void close();                                      // throws WorkError when the last bytes cannot be written
+
+ private:
+  File(Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}
+  Handle handle_;
+  std::string path_;
+};
+
+}  // namespace lgiw::h5
