@@ -30,8 +30,8 @@ struct BackendError : std::runtime_error {
 
 }  // namespace lgiw
 
-#define LGIW_VALIDATE(condition, problem, why, suggestion)              \
-  do {                                                                  \
+#define LGIW_VALIDATE(condition, problem, why, suggestion)                \
+  do {                                                                    \
     if (!(condition)) throw ::lgiw::InputError(problem, why, suggestion); \
   } while (false)
 #define LGIW_EXPECT(condition) assert(condition)

@@ -9,18 +9,19 @@ namespace lgiw {
 
 struct Provenance {
   std::string tool;
-  std::string version;                                       // "0.1.0 (git hash)"
+  std::string version;  // "0.1.0 (git hash)"
   std::string command_line;
-  std::vector<std::pair<std::string, std::string>> inputs;   // (path as given, SHA-256 in hex)
-  bool enabled = true;                                       // false with --no-provenance: reruns compare byte by byte
+  std::vector<std::pair<std::string, std::string>> inputs;  // (path as given, SHA-256 in hex)
+  bool enabled = true;                                      // false with --no-provenance: reruns compare byte by byte
 
-  void add_input(const std::string& path);                   // hashes the file now
-  std::string to_json() const;                               // "{}" when disabled
+  void add_input(const std::string& path);                          // hashes the file now; nothing when disabled
+  void add_text(const std::string& name, const std::string& text);  // the same for what came through stdin
+  std::string to_json() const;                                      // "{}" when disabled
 };
 
-/// Project version and git hash of the build.
+/// Project version and git hash of the build: "0.1.0 (git 1a2b3c4)", "0.1.0 (no git)" when built outside a clone.
 std::string version_string();
-std::string sha256_of_file(const std::string& path);         // throws InputError when it cannot be read
+std::string sha256_of_file(const std::string& path);  // throws InputError when it cannot be read
 std::string sha256_of_text(const std::string& text);
 
 }  // namespace lgiw

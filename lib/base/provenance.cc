@@ -1,0 +1,81 @@
+#include "base/provenance.hh"
+
+#include <openssl/evp.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hh"
+#include "version.hh"
+
+namespace lgiw {
+namespace {
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
+  }
+  void add(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
+  std::string hex() {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned size = 0;
+    EVP_DigestFinal_ex(context_.get(), digest, &size);
+    std::string text;
+    for (unsigned i = 0; i < size; ++i) {
+      text += "0123456789abcdef"[digest[i] >> 4];
+      text += "0123456789abcdef"[digest[i] & 15];
+    }
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
+};
+
+}  // namespace
+
+void Provenance::add_input(const std::string& path) {
+  if (enabled) inputs.emplace_back(path, sha256_of_file(path));
+}
+
+void Provenance::add_text(const std::string& name, const std::string& text) {
+  if (enabled) inputs.emplace_back(name, sha256_of_text(text));
+}
+
+std::string Provenance::to_json() const {
+  if (!enabled) return "{}";
+  nlohmann::ordered_json json = {{"tool", tool}, {"version", version}, {"command_line", command_line}};
+  json["inputs"] = nlohmann::ordered_json::array();
+  for (const auto& [path, sha256] : inputs) json["inputs"].push_back({{"path", path}, {"sha256", sha256}});
+  // A file name need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string version_string() { return LGIW_VERSION; }
+
+std::string sha256_of_file(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  const auto refuse = [&path] {
+    throw InputError(path + " cannot be read", std::strerror(errno), "check the name and its permissions");
+  };
+  if (!file) refuse();
+  Sha256 sha256;
+  std::vector<char> buffer(1 << 20);
+  for (std::size_t size; (size = std::fread(buffer.data(), 1, buffer.size(), file.get())) > 0;)
+    sha256.add(buffer.data(), size);
+  if (std::ferror(file.get())) refuse();
+  return sha256.hex();
+}
+
+std::string sha256_of_text(const std::string& text) {
+  Sha256 sha256;
+  sha256.add(text.data(), text.size());
+  return sha256.hex();
+}
+
+}  // namespace lgiw
