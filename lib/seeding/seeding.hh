@@ -1,0 +1,63 @@
+// From a case and its terrain to particles.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case/case.hh"
+#include "files/particle_file.hh"
+#include "terrain/terrain_model.hh"
+
+namespace lgiw {
+
+/// Volumes in m3 (m2 in 2-D).
+struct SeedingReport {
+  ParticleCounts counts;
+  double water_volume = 0, soil_volume = 0, wall_volume = 0;  // of the particles
+  double water_expected = 0, soil_expected = 0;               // between bed, soil top and still water, integrated
+  double max_water_depth = 0, slide_drop_height = 0;          // m; what the automatic sound speed rests on
+  double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
+};
+
+/// Places the particles of a case: water and soil on a common lattice of spacing dp, walls as lib/seeding/walls.hh has
+/// it.
+///
+/// The lattice has a layer of particles half a dp below the still water. A lattice point belongs to the phase it lies
+/// in and particles stand for dp^D each, which leaves volumes unbiased whatever the shape of the bed; a point that lies
+/// exactly on a boundary counts on every other column. The lowest `settled_layers` of a column are then moved so that
+/// the lowest lies half a dp above the bed: no voids and no crowding at the wall, without a change in volume. On slopes
+/// steeper than 45 degrees particles nearer than `nearest_wall` dp (across the bed) to it are moved out to that
+/// distance.
+///
+/// The order is water, soil, wall, each row by row of map columns from the south-west, in a column upwards (walls
+/// downwards): it depends neither on the tile size nor on the number of threads.
+class Seeder {
+ public:
+  static constexpr int settled_layers = 4;
+  static constexpr double nearest_wall = 0.35;
+
+  /// `model` must outlive the seeder. Throws InputError for cases without terrain or with more than 2e9 particles.
+  Seeder(const Case& c, const TerrainModel& model);
+  ~Seeder();
+
+  /// First pass: counts and volumes. `progress`, here and below, gets the fraction done.
+  const SeedingReport& count(const std::function<void(double)>& progress = {});
+  const SeedingReport& report() const;
+  /// All but the provenance; header.counts is filled by count().
+  const ParticleHeader& header() const;
+  /// Second pass: hands out blocks of one phase, tile by tile of `tile_columns` map columns, phases interleaved.
+  void seed(const std::function<void(const ParticleBlock&)>& sink, const std::function<void(double)>& progress = {},
+            int64_t tile_columns = 1 << 15) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// All particles in memory: for tests and small scenes.
+ParticleData seed_particles(const Case& c, const TerrainModel& model);
+
+}  // namespace lgiw
