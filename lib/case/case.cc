@@ -1,0 +1,101 @@
+#include "case/case.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numeric>
+
+#include "case/dotted_key.hh"
+
+namespace lgiw {
+
+std::string Case::folder() const {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+std::string Case::resolve(const std::string& file) const {
+  if (file.empty() || std::filesystem::path(file).is_absolute() || folder() == ".") return file;
+  return (std::filesystem::path(folder()) / file).string();
+}
+
+std::string Case::where(const std::string& key) const { return nearest_place(places, key); }
+
+std::string nearest_place(const std::map<std::string, std::string>& places, std::string key) {
+  while (true) {
+    if (const auto found = places.find(key); found != places.end()) return found->second;
+    if (key.empty()) return "";
+    const std::size_t dot = key.rfind('.');
+    key = dot == std::string::npos ? "" : key.substr(0, dot);
+  }
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& words) {
+  const auto distance = [&word](const std::string& other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < other.size(); ++j) {
+        const std::size_t substituted = diagonal + (word[i] != other[j]);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({substituted, row[j + 1] + 1, row[j] + 1});
+      }
+    }
+    return row.back();
+  };
+  std::string nearest;
+  std::size_t least = std::string::npos;
+  for (const std::string& other : words)
+    if (const std::size_t d = distance(other); d < least) least = d, nearest = other;
+  return nearest;
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::vector<std::string> case_warnings(const Case& c) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& key, const std::string& problem, const std::string& why,
+                        const std::string& suggestion) {
+    warnings.push_back(c.where(key) + ": " + problem + " (" + why + ") " + suggestion);
+  };
+  const auto given = [&](const std::string& key) { return c.places.count(key) > 0; };
+
+  if (!c.slide.present && given("soil"))
+    warn("soil", "soil has no effect", "there is no slide", "add slide or leave soil out");
+  if (!(c.slide.present && c.water.present) && given("interface"))
+    warn("interface", "interface has no effect", "it needs both water and slide", "leave interface out");
+  if (c.slide.present && c.soil.bed != WallFriction::coulomb && c.soil.sides != WallFriction::coulomb &&
+      given("soil.bed_friction_angle"))
+    warn("soil.bed_friction_angle", "soil.bed_friction_angle has no effect", "no wall is coulomb",
+         "set soil.bed: coulomb");
+  // Metres of soil with a few pascals of cohesion: laboratory values come with laboratory spacings.
+  if (c.slide.present && c.dp >= 1 && c.soil.cohesion > 0 && c.soil.cohesion < 1000)
+    warn("soil.cohesion", "soil.cohesion is " + number_text(c.soil.cohesion) + " Pa",
+         "little for particles of " + number_text(c.dp) + " m; it looks like kPa",
+         "write " + number_text(1000 * c.soil.cohesion) + " if it is");
+  if (c.numerics.kernel == KernelName::cubic && c.numerics.h_over_dp > 1.3 && c.numerics.scheme != "huang2023")
+    warn("numerics.kernel", "the cubic kernel pairs particles at h/dp " + number_text(c.numerics.h_over_dp),
+         "the pressure becomes noisy", "set numerics.h_over_dp: 1.2");
+  if (c.output.map_spacing > 0 && c.output.map_spacing < 0.5 * c.dp)
+    warn("output.map_spacing", "output.map_spacing is finer than half a particle", "it resolves nothing more",
+         "set it to particle_spacing or leave it out");
+  if (c.water.present && c.output.arrival_threshold > 0 && c.output.arrival_threshold < 0.1 * c.dp)
+    warn("output.arrival_threshold", "output.arrival_threshold is below a tenth of a particle",
+         "a lake at rest already moves as much", "set it to a quarter of particle_spacing or more");
+  for (std::size_t i = 0; i < c.gauges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::hypot(c.gauges[i].x - c.gauges[j].x, c.gauges[i].y - c.gauges[j].y) < c.dp)
+        warn("gauges." + std::to_string(i),
+             "gauge " + c.gauges[i].name + " is less than a particle from " + c.gauges[j].name,
+             "they measure the same column", "move one of them");
+  return warnings;
+}
+
+}  // namespace lgiw
