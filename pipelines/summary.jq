@@ -1,0 +1,31 @@
+# One page from summary.json: jq -r -f summary.jq summary.json
+def fixed($digits): # a number with so many decimals; jq 1.6 has no printf
+  if . == null then "-"
+  else pow(10; $digits) as $p | (. * $p | round) as $n | ($n | fabs) as $a
+    | (if $n < 0 then "-" else "" end) + ($a / $p | floor | tostring)
+    + (if $digits == 0 then "" else "." + (($a % $p + $p) | tostring | .[1:]) end)
+  end;
+def pad($width): (" " * ([$width - length, 0] | max) // "") + .;
+def fill($width): . + (" " * ([$width - length, 0] | max) // "");
+def thousands: tostring | [match("\\d{1,3}(?=(\\d{3})*$)"; "g").string] | join(",");
+def scientific: # two significant digits
+  if . == null then "-" elif . == 0 then "0"
+  else (fabs | log10 | floor) as $e | (. / pow(10; $e) | fixed(1)) + "e" + ($e | tostring) end;
+def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + " million m3" else fixed(0) + " m3" end;
+
+"Case \(.case)",
+"",
+"  particles        water \(.particles.water | thousands), soil \(.particles.soil | thousands), " +
+  "wall \(.particles.wall | thousands); wall particles left out \(.particles.left_out | thousands)",
+"  run              \(.steps | thousands) steps in \(.wall_time_s | fixed(0)) s, " +
+  "\(.particle_steps_per_s / 1e6 | fixed(2)) million particle-steps/s",
+"  slide            \(.slide_volume_m3 | volume), of which \(.immersed_volume_m3 | volume) entered the water; " +
+  "fastest \(.max_slide_speed_m_s | fixed(1)) m/s",
+"  run-up           \(.runup_m | fixed(1)) m above still level on the opposite bank",
+"  conservation     mass error \(.mass_error | scientific), density error \(.density_error | scientific)",
+"  left out         \(if (.left_out | length) == 0 then "nothing" else (.left_out | join("\n                   ")) end)",
+"",
+"  \("gauge" | fill(10)) \("x (m)" | pad(10)) \("y (m)" | pad(11)) \("highest (m)" | pad(12)) " +
+  "\("height (m)" | pad(11)) \("arrival (s)" | pad(12))",
+(.gauges[] | "  \(.name | fill(10)) \(.x | fixed(0) | pad(10)) \(.y | fixed(0) | pad(11)) " +
+  "\(.max_elevation_m | fixed(1) | pad(12)) \(.max_height_m | fixed(1) | pad(11)) \(.arrival_s | fixed(1) | pad(12))")
