@@ -6,11 +6,14 @@
 //   attributes: Format = "lgiw-particles 1", Dimension, ParticleSpacing, Origin [3] (add to local coordinates to get the
 //     case's CRS), CRS (WKT, "" for analytic scenes), VerticalDatum, StillWaterLevel (local z; NaN without water),
 //     DomainLow [3], DomainHigh [3] (local; a particle outside has left), Sides [4] (west, east, south, north as Side),
-//     AbsorbingWidth, Case (YAML text), Provenance (JSON), LeftOut (JSON: what was left out and how much)
+//     AbsorbingWidth, SoundSpeed (of the water, m/s; 0 without water), Counts [3] (int64: water, soil, wall), WallLeftOut,
+//     Case (YAML text), Provenance (JSON),
+//     LeftOut (JSON: what was left out and how much)
 //   /lgiw/soil/Stress float32 [n_soil,6]: xx yy zz xy yz xz, tension positive, total
 //   /lgiw/wall/Normal float32 [n_wall,3] into the domain;  /lgiw/wall/Kind uint8: 0 bed, 1 side
 //   /lgiw/bed, /lgiw/ground: float64 [ny,nx] with attributes x0, y0, dx (HeightField); ground: before the slide, soil on it
-// A dataset of a phase that the scene lacks is absent.
+// A dataset of a phase that the scene lacks is absent, and so is an empty bed or ground.
+// Vertices hold one cell a particle, so that filters can pick particles by phase; their topology is deflated.
 #pragma once
 
 #include <array>
@@ -42,6 +45,7 @@ struct ParticleHeader {
   std::array<double, 3> low{}, high{}; // local domain box
   std::array<Side, 4> sides{Side::wall, Side::wall, Side::wall, Side::wall};
   double absorbing_width = 0;
+  double sound_speed = 0;              // of the water, m/s; 0 without water
   HeightField bed, ground;
   std::string case_text, provenance;
   ParticleCounts counts;
@@ -58,7 +62,9 @@ struct ParticleBlock {
   std::size_t size() const { return volume.size(); }
 };
 
-/// Streams a particles file; counts must be known beforehand, and blocks of one phase may come in any number of pieces.
+/// Streams a particles file; counts must be known beforehand, and blocks of one phase may come in any number of pieces, the
+/// phases interleaved as they come. Takes no memory of its own beyond a few MiB. Throws InputError when the header is unsound
+/// (what read_particle_header() would refuse), WorkError when blocks and counts disagree or the disk is full.
 class ParticleWriter {
  public:
   ParticleWriter(const std::string& path, const ParticleHeader& header);  // header.counts fixes the sizes
@@ -77,7 +83,8 @@ struct ParticleData {
 };
 
 /// Reads a whole file. Throws InputError for anything that is not a sound particles file: wrong format, sizes that do not
-/// agree or exceed the file, non-finite values, particles outside the domain box.
+/// agree or exceed the file, non-finite values, volumes or densities that are not positive, wall normals that are not unit
+/// vectors, water or soil outside the domain box (walls may lie outside, behind the sides).
 ParticleData read_particles(const std::string& path);
 ParticleHeader read_particle_header(const std::string& path);
 

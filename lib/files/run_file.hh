@@ -5,15 +5,19 @@
 // Velocity float32 [.,3], Pressure float32 (scenes with water), Adps float32 (scenes with soil; 0 on water),
 // Lost uint8 (1: has left the domain; its position is the last one inside). Steps/* as VTKHDF wants them.
 // Outside, group /lgiw: the attributes, bed and ground of the particles file (Format = "lgiw-run 1"), and
-//   attributes ParticleVolume (dp^D), WallCount, WallLeftOut, LeftOut (JSON list of strings), Summary (JSON, at the end)
+//   attributes ParticleVolume (dp^D), WallCount, LeftOut (JSON list of strings), Summary (JSON, at the end)
 //   /lgiw/soil/InitialPoints float32 [n_soil,3]
-//   /lgiw/surface: attributes x0, y0, dx; datasets by map cell (node (i,j) at x0+i*dx, y0+j*dx; ny = 1 in 2-D)
+//   /lgiw/surface: attributes x0, y0, dx, Count (nt); datasets by map cell (node (i,j) at x0+i*dx, y0+j*dx; ny = 1 in 2-D)
 //       time float64 [nt]; water float32 [nt,ny,nx] water-surface elevation, NaN where dry (absent without water);
 //       soil float32 [nt,ny,nx] soil-surface elevation, NaN where there is none (absent without soil)
 //   /lgiw/maxima: float32 [ny,nx], same map, accumulated while running: elevation (of the water surface), depth, speed
 //       (of water), arrival (first time at which the surface differs from still level, or a dry bed is wet, by more than
 //       the arrival threshold; NaN: never), soil_speed (absent without soil). Absent without water except soil_speed.
-//   /lgiw/diagnostics: time float64 [nd], and one float64 [nd] dataset a quantity (the columns of the diagnostics CSV)
+//   /lgiw/diagnostics: attribute Count (nd); time float64 [nd], and one float64 [nd] dataset a quantity (the columns of the
+//       diagnostics CSV)
+// Steps@NSteps and the two Count attributes are written at flush(), after all else is in the file: they alone say how much of
+// it is valid. In a file whose writer was killed, datasets may be longer than they say.
+// Surface series are deflated tiles of at most 128 x 128 nodes of one map, so that a node's series is cheap to read.
 #pragma once
 
 #include <cstdint>
@@ -49,11 +53,16 @@ struct RunHeader {
   std::vector<float> initial_soil;  // [n_soil,3]
 };
 
-/// Writes a run frame by frame; the file is whole and readable after every flush(). truncate_to() drops what lies behind a
-/// checkpoint, so that a resumed run ends in the same bytes as an uninterrupted one.
+/// Writes a run frame by frame; the file is whole and readable after every flush(), whatever happens to the process before the
+/// next one. The moments of flush() leave no trace in the file. Throws WorkError when arrays have the wrong length or the disk
+/// is full. Vectors for what the scene lacks (pressure and water without water, adps and soil without soil) are empty.
 class RunWriter {
  public:
   RunWriter(const std::string& path, const RunHeader& header);
+  /// Drops what lies behind a checkpoint's counts (and the summary), so that a resumed run ends in the same bytes as an
+  /// uninterrupted one. HDF5 cannot take back bytes in place: the part to be kept is replayed, in the order in which it was
+  /// once written, into a temporary file that then takes the name `path`; needs that much disk, and leaves the old file as
+  /// it was until it is done. The rasters of the maxima are those of the last flush; write_maxima() replaces them.
   static RunWriter reopen(const std::string& path, int64_t frames, int64_t surfaces, int64_t diagnostics);
   void add_frame(const Frame& frame);
   void add_surface(double time, const std::vector<float>& water, const std::vector<float>& soil);
@@ -67,13 +76,14 @@ class RunWriter {
   void close();
 
  private:
-  explicit RunWriter(h5::File file) : file_(std::move(file)) {}
   h5::File file_;
   RunHeader header_;
+  std::vector<std::string> columns_;  // of the diagnostics
   int64_t frames_ = 0, surfaces_ = 0, diagnostics_ = 0;
 };
 
-/// Reads a run lazily.
+/// Reads a run lazily. Throws InputError for anything that is not a sound run file: the constructor for the header, sizes,
+/// counts and times, the others for the values that they return.
 class RunReader {
  public:
   explicit RunReader(const std::string& path);
@@ -94,9 +104,16 @@ class RunReader {
   std::string summary() const;   // JSON text, "" while the run is not finished
 
  private:
+  friend class RunWriter;  // reopen() replays
+  std::vector<float> surface(const std::string& name, std::size_t k) const;
+  std::vector<float> series(const std::string& name, std::size_t i, std::size_t j) const;
   h5::File file_;
   RunHeader header_;
   std::vector<double> times_, surface_times_;
+  std::size_t diagnostics_count_ = 0;
 };
+
+/// An Xdmf3 sidecar: what ParaView before 5.12 opens instead of the run, which it refers to relative to the sidecar's folder.
+void write_xdmf(const std::string& run_path, const std::string& xmf_path, bool overwrite = false);
 
 }  // namespace lgiw
