@@ -1,0 +1,67 @@
+// Weakly compressible water (physics.md section 2): equation of state, continuity with density diffusion, momentum.
+// The state variable is the excess density e = rho - rho0: single precision then resolves pressures far below those of one
+// particle spacing of water.
+#pragma once
+
+#include "physics/vec.hh"
+
+namespace lgiw {
+
+/// Tait: p = c^2 rho0 / 7 ((rho/rho0)^7 - 1), Eq. (4).
+template <class T>
+struct EquationOfState {
+  T rho0, stiffness;  // kg/m3, c^2 rho0 / 7 in Pa
+  EquationOfState() = default;
+  EquationOfState(double density, double sound_speed)
+      : rho0(T(density)), stiffness(T(sound_speed * sound_speed * density / 7)) {}
+
+  /// Pressure (Pa) at excess density e (kg/m3). (1 + s)^7 - 1 is expanded, since the subtraction would lose the digits.
+  LGIW_FN T pressure(T e) const {
+    const T s = e / rho0;
+    return stiffness * s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s))))));
+  }
+  /// Excess density at pressure p. Two Newton steps on the expanded polynomial after the linear guess: the compressions of
+  /// this model stay below a few per cent, where this is exact to rounding.
+  LGIW_FN T excess(T p) const {
+    const T y = p / stiffness;
+    T s = y / (7 + 3 * y);
+    for (int k = 0; k < 3; ++k) {
+      const T f = s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s)))))) - y;
+      const T s1 = 1 + s, s3 = s1 * s1 * s1;
+      s -= f / (7 * s3 * s3);
+    }
+    return rho0 * s;
+  }
+};
+
+/// d(rho_i)/dt from particle j: continuity, Eq. (1), and density diffusion without its hydrostatic part.
+template <class T, int D>
+struct WaterContinuity {
+  T mass;            // m_j, kg
+  T diffusion;       // 2 delta h c_w, m2/s; 0 between unlike particles
+  Vec<T, D> static_gradient;  // rho0 g / c_w^2: gradient of density at rest
+
+  /// r = r_i - r_j, v = v_i - v_j, f = W'/r, e the excess densities, rho_j in kg/m3.
+  LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f, T e_i, T e_j, T rho_j) const {
+    return mass * f * (dot(v, r) - diffusion * (e_j - e_i + dot(static_gradient, r)) / rho_j);
+  }
+  /// Without diffusion.
+  LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f) const { return mass * f * dot(v, r); }
+};
+
+/// Monaghan's artificial viscosity, Eq. (5).
+template <class T, int D>
+struct ArtificialViscosity {
+  T alpha_c;      // alpha times the sound speed, m/s
+  T h, epsilon;   // smoothing length, 0.01 h^2
+  ArtificialViscosity() = default;
+  ArtificialViscosity(double alpha, double sound_speed, double smoothing_length)
+      : alpha_c(T(alpha * sound_speed)), h(T(smoothing_length)), epsilon(T(0.01 * smoothing_length * smoothing_length)) {}
+
+  /// mu_ij in m/s: also the velocity that limits the time step.
+  LGIW_FN T mu(T vr, T r2) const { return h * vr / (r2 + epsilon); }
+  /// Pi_ij in m5/(kg s2); zero for receding particles.
+  LGIW_FN T operator()(T mu_ij, T rho_mean) const { return smallest(mu_ij, T(0)) * -alpha_c / rho_mean; }
+};
+
+}  // namespace lgiw

@@ -1,0 +1,49 @@
+// The cell grid that finds neighbours. Cells are as wide as the kernel's support and numbered along x first, so that the
+// neighbours of a particle lie in 3 (2-D) or 9 (3-D) contiguous ranges of the particles of a phase, sorted by cell.
+#pragma once
+
+#include "physics/vec.hh"
+
+namespace lgiw {
+
+template <class T, int D>
+struct Grid {
+  static constexpr int rows = D == 2 ? 3 : 9;
+  double low[D];
+  double inverse_width;
+  int n[D];
+  int cells;     // the product of n; also the key of particles that have left the domain
+
+  Grid() = default;
+  /// Covers the box from `low_corner` to `high_corner` with two cells to spare on each side, so that the neighbouring
+  /// rows of any particle, walls included, lie inside the grid.
+  Grid(const double* low_corner, const double* high_corner, double width) {
+    inverse_width = 1 / width;
+    double total = 1;
+    for (int k = 0; k < D; ++k) {
+      low[k] = low_corner[k] - 2 * width;
+      n[k] = int(std::ceil((high_corner[k] - low_corner[k]) / width)) + 4;
+      total *= n[k];
+    }
+    cells = total < 2.0e9 ? int(total) : -1;
+  }
+
+  LGIW_FN int coordinate(double x, int k) const {
+    const int c = int((x - low[k]) * inverse_width);
+    return c < 1 ? 1 : (c > n[k] - 2 ? n[k] - 2 : c);
+  }
+  template <class P>
+  LGIW_FN int cell(const Vec<P, D>& x) const {
+    int c = coordinate(double(x[D - 1]), D - 1);
+    for (int k = D - 2; k >= 0; --k) c = c * n[k] + coordinate(double(x[k]), k);
+    return c;
+  }
+  /// Particles [begin, end) in the k-th row of three cells around `cell`; `start` has cells + 1 entries.
+  LGIW_FN void row(const int* start, int cell, int k, int& begin, int& end) const {
+    const int c = D == 2 ? cell + (k - 1) * n[0] : cell + (k % 3 - 1) * n[0] + (k / 3 - 1) * n[0] * n[1];
+    begin = start[c - 1];
+    end = start[c + 2];
+  }
+};
+
+}  // namespace lgiw

@@ -1,0 +1,668 @@
+// The time stepping itself, once for every backend: a step is a list of named, timed phases.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <type_traits>
+
+#include "base/error.hh"
+#include "solver/passes.hh"
+#include "solver/simulation.hh"
+
+namespace lgiw {
+
+/// Functors that are no physics: conversions and bookkeeping.
+template <class T, class P>
+struct Convert {
+  T* to;
+  const P* from;
+  LGIW_FN void operator()(int i) const { to[i] = T(from[i]); }
+};
+template <class Tr>
+struct FinishStep {
+  Parameters<Tr> parameters;
+  const Limits<typename Tr::T>* limits;
+  StepState* state;
+  bool advance;
+  LGIW_FN void operator()(int) const {
+    if (advance && (!(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX)) return;
+    finish_step(parameters, *limits, advance, *state);
+  }
+};
+template <class T>
+struct ResetLimits {
+  Limits<T>* limits;
+  LGIW_FN void operator()(int) const { *limits = Limits<T>{}; }
+};
+/// First keys, before any motion.
+template <class Tr, class View>
+struct SetKeys : Pass<Tr> {
+  View view;
+  LGIW_FN void operator()(int i) const {
+    Vec<typename Tr::T, Tr::D> x;
+    for (int k = 0; k < Tr::D; ++k) x.c[k] = typename Tr::T(view.position[k][i]);
+    view.key[i] = this->grid.cell(x);
+  }
+};
+/// Term p/rho^2 from the density.
+template <class Tr>
+struct SetTerms : Pass<Tr> {
+  LGIW_FN void operator()(int i) const {
+    const auto e = this->water.excess[i], rho = this->parameters.eos.rho0 + e;
+    this->water.term[i] = this->parameters.eos.pressure(e) / (rho * rho);
+  }
+};
+template <class Tr>
+struct SetArtificialStress : Pass<Tr> {
+  using B = Pass<Tr>;
+  LGIW_FN void operator()(int i) const {
+    B::store_stress(this->soil.artificial, i,
+                    artificial_stress(B::load_stress(this->soil.stress, i), this->parameters.artificial_stress));
+  }
+};
+
+template <class Backend, class Tr>
+class ParticleSimulation final : public Simulation {
+  using T = typename Tr::T;
+  using P = typename Tr::P;
+  static constexpr int D = Tr::D, S = Tr::S;
+  static constexpr bool two_positions = !std::is_same_v<T, P>;
+  template <class U>
+  using Array = typename Backend::template Array<U>;
+
+  /// Where a sort gathers to before the arrays are swapped.
+  struct Spare {
+    Array<T> t;
+    Array<P> p;
+    Array<unsigned> id;
+    Array<int> order;
+    template <class U>
+    Array<U>& of(const Array<U>&) {
+      if constexpr (std::is_same_v<U, T>) return t;
+      else if constexpr (std::is_same_v<U, P>) return p;
+      else return id;
+    }
+    template <class F>
+    void all(F&& f) { f(t, ""), f(p, ""), f(id, ""), f(order, ""); }
+  };
+  struct Water {
+    Spare spare;
+    Array<P> position[D];
+    Array<T> x[D], v[D], a[D], excess, excess_next, term, v_previous[D], excess_previous;
+    Array<unsigned> id;
+    Array<int> key, start;
+    /// Fields that follow the particles through a sort; the others are recomputed before they are read.
+    template <class F>
+    void carried(F&& f) {
+      for (auto& q : position) f(q, "position");
+      for (auto& q : v) f(q, "velocity");
+      for (auto& q : v_previous) f(q, "previous velocity");
+      f(excess, "density"), f(excess_previous, "previous density"), f(term, "pressure"), f(id, "id");
+    }
+    template <class F>
+    void scratch(F&& f) {
+      if (two_positions) for (auto& q : x) f(q, "rounded position");
+      for (auto& q : a) f(q, "acceleration");
+      f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts");
+    }
+  };
+  struct Soil {
+    Spare spare;
+    Array<P> position[D];
+    Array<T> x[D], v[D], a[D], stress[S], stress_next[S], adps, image_term, image_excess, artificial[S], v_previous[D],
+        stress_previous[S];
+    Array<unsigned> id;
+    Array<int> key, start;
+    template <class F>
+    void carried(F&& f) {
+      for (auto& q : position) f(q, "position");
+      for (auto& q : v) f(q, "velocity");
+      for (auto& q : v_previous) f(q, "previous velocity");
+      for (auto& q : stress) f(q, "stress");
+      for (auto& q : stress_previous) f(q, "previous stress");
+      for (auto& q : artificial) f(q, "artificial stress");
+      f(adps, "Adps"), f(id, "id");
+    }
+    template <class F>
+    void scratch(F&& f) {
+      if (two_positions) for (auto& q : x) f(q, "rounded position");
+      for (auto& q : a) f(q, "acceleration");
+      for (auto& q : stress_next) f(q, "next stress");
+      f(image_term, "image pressure"), f(image_excess, "image density"), f(key, "cell"), f(start, "cell starts");
+    }
+  };
+  struct Wall {
+    Array<T> x[D], normal[D], weight, slip, term, excess, v[D], stress[S];
+    Array<unsigned> id;
+    Array<int> start;
+    template <class F>
+    void all(F&& f) {
+      for (auto& q : x) f(q, "position");
+      for (auto& q : normal) f(q, "normal");
+      f(weight, "volume"), f(slip, "slip"), f(term, "image pressure"), f(excess, "image density");
+      for (auto& q : v) f(q, "image velocity");
+      for (auto& q : stress) f(q, "image stress");
+      f(id, "id"), f(start, "cell starts");
+    }
+  };
+
+ public:
+  ParticleSimulation(const ModelParameters& m, const InitialParticles& in, NumberType type, Backend backend = {})
+      : backend_(std::move(backend)), model_(m), type_(type), n_water_(int(in.n_water())), n_soil_(int(in.n_soil())),
+        n_wall_(int(in.n_wall())), p_(m, n_water_ > 0, n_soil_ > 0) {
+    double low[D], high[D];
+    for (int k = 0; k < D; ++k) low[k] = p_.low[k], high[k] = p_.high[k];
+    for (int i = 0; i < n_wall_; ++i)      // the grid holds the walls, which reach beyond the domain
+      for (int k = 0; k < D; ++k) {
+        const double x = in.wall_x[3 * std::size_t(i) + axis(k)];
+        low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+      }
+    grid_ = Grid<T, D>(low, high, 2 * m.h * (1 + 1e-6));
+    LGIW_VALIDATE(grid_.cells > 0, "the domain needs more than 2 000 000 000 cells",
+                  "cells are as wide as the kernel's support", "use a coarser particle spacing or a smaller window");
+    state_ = Array<StepState>(1);
+    limits_ = Array<Limits<T>>(1);
+    StepState st;
+    backend_.upload(state_, &st);
+    if (n_water_) fill_water(in);
+    if (n_soil_) fill_soil(in);
+    if (n_wall_) fill_wall(in);
+    sort_phases();
+    evaluate();
+    finish(false);
+  }
+
+  StepState advance(double target, int64_t max_steps) override {
+    StepState st = state();
+    st.target = target;
+    backend_.upload(state_, &st);
+    int64_t done = 0;
+    while (st.time < st.target && done < max_steps && (st.failed_water & st.failed_soil) == UINT32_MAX) {
+      const int64_t batch = std::min<int64_t>(Backend::steps_per_check, max_steps - done);
+      for (int64_t k = 0; k < batch; ++k) step();
+      const int64_t before = st.step;
+      st = state();
+      done += st.step - before;
+    }
+    return st;
+  }
+  StepState state() const override {
+    StepState st;
+    backend_.download(&st, state_);
+    return st;
+  }
+
+  void settle(bool on) override {
+    StepState st = state();
+    StepState fresh;
+    fresh.settling = on;
+    fresh.lost_water = st.lost_water, fresh.lost_soil = st.lost_soil;
+    backend_.upload(state_, &fresh);
+    for (auto& q : water_.v) backend_.zero(q);
+    for (auto& q : water_.v_previous) backend_.zero(q);
+    if (n_water_ && p_.verlet) copy(water_.excess_previous, water_.excess);
+    evaluate();
+    finish(false);
+  }
+
+  void download(ParticleState& out) const override {
+    if (n_water_) {
+      const auto id = host(water_.id);
+      positions(out.water_x, water_.position, id), vectors(out.water_v, water_.v, id);
+      out.water_excess = by_id<float>(host(water_.excess), id);
+      out.water_pressure.resize(out.water_excess.size());
+      const EquationOfState<double> eos(model_.water_density, model_.sound_speed);
+      for (std::size_t i = 0; i < out.water_excess.size(); ++i)
+        out.water_pressure[i] = float(eos.pressure(double(out.water_excess[i])));
+      out.water_lost = lost(water_.start, id);
+    }
+    if (n_soil_) {
+      const auto id = host(soil_.id);
+      positions(out.soil_x, soil_.position, id), vectors(out.soil_v, soil_.v, id);
+      out.soil_adps = by_id<float>(host(soil_.adps), id);
+      out.soil_stress = stresses(soil_.stress, id);
+      out.soil_lost = lost(soil_.start, id);
+    }
+  }
+  void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const override {
+    pressure.clear(), stress.clear();
+    if (!n_wall_) return;
+    const auto id = host(wall_.id);
+    if (n_water_) {
+      const auto term = by_id<double>(host(wall_.term), id), excess = by_id<double>(host(wall_.excess), id);
+      for (std::size_t i = 0; i < term.size(); ++i) {
+        const double rho = model_.water_density + excess[i];
+        pressure.push_back(float(term[i] * rho * rho));
+      }
+    }
+    if (n_soil_) stress = stresses(wall_.stress, id);
+  }
+  void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const override {
+    if (n_water_) forces(water, water_.a, host(water_.id), double(p_.water_mass));
+    if (n_soil_) forces(soil, soil_.a, host(soil_.id), double(p_.soil_mass));
+  }
+
+  std::vector<RawArray> save() const override {
+    std::vector<RawArray> out;
+    auto& self = const_cast<ParticleSimulation&>(*this);
+    self.restart_arrays([&](auto& array, const std::string& name) {
+      using U = std::remove_pointer_t<decltype(array.data())>;
+      RawArray raw{name, std::vector<unsigned char>(array.size() * sizeof(U))};
+      backend_.download(reinterpret_cast<U*>(raw.bytes.data()), array);
+      out.push_back(std::move(raw));
+    });
+    return out;
+  }
+  void restore(const std::vector<RawArray>& arrays) override {
+    std::size_t next = 0;
+    restart_arrays([&](auto& array, const std::string& name) {
+      using U = std::remove_pointer_t<decltype(array.data())>;
+      LGIW_VALIDATE(next < arrays.size() && arrays[next].name == name && arrays[next].bytes.size() == array.size() * sizeof(U),
+                    "the checkpoint does not fit this run", "array '" + name + "' is missing or has another size",
+                    "resume with the case, particles and precision that wrote it");
+      backend_.upload(array, reinterpret_cast<const U*>(arrays[next].bytes.data()));
+      ++next;
+    });
+    for (int k = 0; k < D && two_positions; ++k) {
+      if (n_water_) convert(water_.x[k], water_.position[k]);
+      if (n_soil_) convert(soil_.x[k], soil_.position[k]);
+    }
+  }
+
+  std::vector<PhaseTime> timings() const override {
+    std::vector<PhaseTime> out;
+    for (const auto& [name, seconds] : times_) out.push_back({name, seconds});
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
+    return out;
+  }
+  int64_t bytes() const override {
+    int64_t sum = 0;
+    auto add = [&](const auto& q, const char*) { sum += int64_t(q.size() * sizeof(*q.data())); };
+    auto& self = const_cast<ParticleSimulation&>(*this);
+    self.water_.carried(add), self.water_.scratch(add), self.soil_.carried(add), self.soil_.scratch(add), self.wall_.all(add);
+    self.water_.spare.all(add), self.soil_.spare.all(add);
+    return sum;
+  }
+  std::string description() const override {
+    const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
+    return backend_.name() + ", " + number + " precision, " + std::to_string(D) + "-D, " +
+           (model_.cubic_kernel ? "cubic spline" : "Wendland C2");
+  }
+  std::vector<std::string> left_out() const override;
+
+ private:
+  static int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
+  static int stress_axis(int c) {      // our component -> xx yy zz xy yz xz; 2-D: xx zz xz and yy out of plane
+    constexpr int plane[4] = {0, 2, 5, 1};
+    return D == 2 ? plane[c] : c;
+  }
+
+  void fill_water(const InitialParticles& in) {
+    const std::size_t n = n_water_;
+    std::vector<P> position(n);
+    for (int k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < n; ++i) position[i] = P(in.water_x[3 * i + axis(k)]);
+      put(water_.position[k], position);
+      if (two_positions) water_.x[k] = Array<T>(n);
+      water_.v[k] = zeros<T>(n), water_.a[k] = zeros<T>(n);
+      if (p_.verlet) water_.v_previous[k] = zeros<T>(n);
+    }
+    std::vector<T> excess(in.water_excess.begin(), in.water_excess.end());
+    put(water_.excess, excess);
+    if (p_.verlet) put(water_.excess_previous, excess);
+    water_.excess_next = zeros<T>(n), water_.term = zeros<T>(n);
+    put(water_.id, ids(n));
+    water_.key = zeros<int>(n), water_.start = zeros<int>(grid_.cells + 1);
+    SetTerms<Tr> terms;
+    fill(terms);
+    backend_.for_each(n_water_, terms);
+    set_keys(pass<SetKeys<Tr, WaterView<Tr>>>(), water_view(), n_water_);
+  }
+  void fill_soil(const InitialParticles& in) {
+    const std::size_t n = n_soil_;
+    std::vector<P> position(n);
+    for (int k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < n; ++i) position[i] = P(in.soil_x[3 * i + axis(k)]);
+      put(soil_.position[k], position);
+      if (two_positions) soil_.x[k] = Array<T>(n);
+      soil_.v[k] = zeros<T>(n), soil_.a[k] = zeros<T>(n);
+      if (p_.verlet) soil_.v_previous[k] = zeros<T>(n);
+    }
+    std::vector<T> stress(n);
+    for (int c = 0; c < S; ++c) {
+      for (std::size_t i = 0; i < n; ++i) stress[i] = T(in.soil_stress[6 * i + stress_axis(c)]);
+      put(soil_.stress[c], stress);
+      if (p_.verlet) put(soil_.stress_previous[c], stress);
+      soil_.stress_next[c] = zeros<T>(n);
+      if (p_.artificial_stress > 0) soil_.artificial[c] = zeros<T>(n);
+    }
+    soil_.adps = zeros<T>(n);
+    if (n_water_) soil_.image_term = zeros<T>(n), soil_.image_excess = zeros<T>(n);
+    put(soil_.id, ids(n));
+    soil_.key = zeros<int>(n), soil_.start = zeros<int>(grid_.cells + 1);
+    if (p_.artificial_stress > 0) {
+      SetArtificialStress<Tr> set;
+      fill(set);
+      backend_.for_each(n_soil_, set);
+    }
+    set_keys(pass<SetKeys<Tr, SoilView<Tr>>>(), soil_view(), n_soil_);
+  }
+  void fill_wall(const InitialParticles& in) {
+    const std::size_t n = n_wall_;
+    // Walls never move: they are sorted here, once, on the host.
+    std::vector<int> key(n), order(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Vec<T, D> x;
+      for (int k = 0; k < D; ++k) x.c[k] = T(in.wall_x[3 * i + axis(k)]);
+      key[i] = grid_.cell(x);
+      order[i] = int(i);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+    std::vector<int> start(grid_.cells + 1, 0);
+    for (int k : key) ++start[k + 1];
+    for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
+    put(wall_.start, start);
+    std::vector<T> value(n);
+    std::vector<unsigned> id(n);
+    for (int k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_x[3 * std::size_t(order[i]) + axis(k)]);
+      put(wall_.x[k], value);
+    }
+    for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[order[i]] / double(p_.volume)), id[i] = order[i];
+    put(wall_.weight, value), put(wall_.id, id);
+    if (n_water_) wall_.term = zeros<T>(n), wall_.excess = zeros<T>(n);
+    if (n_soil_) {
+      for (std::size_t i = 0; i < n; ++i)
+        value[i] = (in.wall_kind[order[i]] == 0 ? model_.free_slip_bed : model_.free_slip_sides) ? T(1) : T(0);
+      put(wall_.slip, value);
+      for (int k = 0; k < D; ++k) {
+        for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(order[i]) + axis(k)]);
+        put(wall_.normal[k], value);
+        wall_.v[k] = zeros<T>(n);
+      }
+      for (auto& q : wall_.stress) q = zeros<T>(n);
+    }
+  }
+
+  // One step. Leapfrog moves first and takes the rates at the new place; Verlet takes all rates where the forces are.
+  void step() {
+    if (p_.verlet) {
+      rates();
+      motion();
+    } else {
+      motion();
+      rates();
+    }
+    evaluate();
+    finish(true);
+  }
+  void motion() {
+    if (n_water_) timed("motion", [&] {
+      Motion<Tr, true> f;
+      fill(f);
+      f.lost = &state_.data()->lost_water, f.failed = &state_.data()->failed_water;
+      backend_.for_each(n_water_, f);
+    });
+    if (n_soil_) timed("motion", [&] {
+      Motion<Tr, false> f;
+      fill(f);
+      f.lost = &state_.data()->lost_soil, f.failed = &state_.data()->failed_soil;
+      backend_.for_each(n_soil_, f);
+    });
+    timed("sort", [&] { sort_phases(); });
+  }
+  void rates() {
+    if (n_soil_ && n_wall_) run<WallVelocities<Tr>>("images", n_wall_);
+    if (n_water_) timed("water rates", [&] {
+      WaterRates<Tr> f;
+      fill(f);
+      f.failed = &state_.data()->failed_water;
+      backend_.for_each(n_water_, f);
+      water_.excess.swap(water_.excess_next);
+    });
+    if (n_soil_) {
+      run<SoilRates<Tr>>("soil rates", n_soil_);
+      for (int c = 0; c < S; ++c) soil_.stress[c].swap(soil_.stress_next[c]);
+    }
+  }
+  /// Images and forces for the present positions, velocities, densities and stresses.
+  void evaluate() {
+    if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr>>("images", n_wall_);
+    if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", n_soil_);
+    backend_.single(ResetLimits<T>{limits_.data()});
+    if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
+    if (n_soil_) {
+      if (p_.coulomb_bed) run_limits<SoilForces<Tr, true>>("soil forces", n_soil_);
+      else run_limits<SoilForces<Tr, false>>("soil forces", n_soil_);
+    }
+  }
+  void finish(bool advance) {
+    backend_.single(FinishStep<Tr>{p_, limits_.data(), state_.data(), advance});
+  }
+
+  void sort_phases() {
+    if (n_water_) sort_phase(water_);
+    if (n_soil_) sort_phase(soil_);
+  }
+  template <class Phase>
+  void sort_phase(Phase& phase) {
+    Spare& spare = phase.spare;
+    if (spare.order.size() != phase.key.size()) spare.order = Array<int>(phase.key.size());
+    backend_.sort_by_cell(phase.key, grid_.cells, spare.order, phase.start);
+    phase.carried([&](auto& q, const char*) {
+      if (!q.size()) return;
+      auto& to = spare.of(q);
+      if (to.size() != q.size()) to = std::remove_reference_t<decltype(q)>(q.size());
+      backend_.gather(to, q, spare.order);
+      q.swap(to);
+    });
+    if constexpr (two_positions)
+      for (int k = 0; k < D; ++k) convert(phase.x[k], phase.position[k]);
+  }
+
+  // Plumbing.
+  template <class U>
+  Array<U> zeros(std::size_t n) {
+    Array<U> a(n);
+    backend_.zero(a);
+    return a;
+  }
+  template <class U>
+  void put(Array<U>& to, const std::vector<U>& from) {
+    to = Array<U>(from.size());
+    backend_.upload(to, from.data());
+  }
+  template <class U>
+  void copy(Array<U>& to, const Array<U>& from) {
+    std::vector<U> values = host(from);
+    backend_.upload(to, values.data());
+  }
+  template <class U>
+  std::vector<U> host(const Array<U>& from) const {
+    std::vector<U> values(from.size());
+    backend_.download(values.data(), from);
+    return values;
+  }
+  void convert(Array<T>& to, const Array<P>& from) {
+    backend_.for_each(int(to.size()), Convert<T, P>{to.data(), from.data()});
+  }
+  static std::vector<unsigned> ids(std::size_t n) {
+    std::vector<unsigned> id(n);
+    for (std::size_t i = 0; i < n; ++i) id[i] = unsigned(i);
+    return id;
+  }
+  template <class Keys, class View>
+  void set_keys(Keys keys, const View& view, int n) {
+    keys.view = view;
+    backend_.for_each(n, keys);
+  }
+  template <class F>
+  F pass() {
+    F f;
+    fill(f);
+    return f;
+  }
+  template <class F>
+  void run(const char* phase, int n) {
+    timed(phase, [&] { backend_.for_each(n, pass<F>()); });
+  }
+  template <class F>
+  void run_limits(const char* phase, int n) {
+    timed(phase, [&] { backend_.template for_each_limits<T>(n, pass<F>(), limits_.data()); });
+  }
+  template <class F>
+  void timed(const char* phase, F&& f) {
+    const double start = backend_.now();
+    f();
+    times_[phase] += backend_.now() - start;
+  }
+
+  void fill(Pass<Tr>& f) {
+    f.grid = grid_;
+    f.parameters = p_;
+    f.water = water_view();
+    f.soil = soil_view();
+    f.wall = wall_view();
+    f.state = state_.data();
+  }
+  WaterView<Tr> water_view() const {
+    WaterView<Tr> w;
+    w.n = n_water_;
+    if (!w.n) return w;
+    for (int k = 0; k < D; ++k) {
+      w.position[k] = water_.position[k].data();
+      if constexpr (two_positions) w.x[k] = water_.x[k].data();
+      else w.x[k] = water_.position[k].data();
+      w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
+    }
+    w.start = water_.start.data(), w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data();
+    w.term = water_.term.data(), w.id = water_.id.data(), w.key = water_.key.data();
+    w.excess_previous = water_.excess_previous.data();
+    return w;
+  }
+  SoilView<Tr> soil_view() const {
+    SoilView<Tr> s;
+    s.n = n_soil_;
+    if (!s.n) return s;
+    for (int k = 0; k < D; ++k) {
+      s.position[k] = soil_.position[k].data();
+      if constexpr (two_positions) s.x[k] = soil_.x[k].data();
+      else s.x[k] = soil_.position[k].data();
+      s.v[k] = soil_.v[k].data(), s.a[k] = soil_.a[k].data(), s.v_previous[k] = soil_.v_previous[k].data();
+    }
+    for (int c = 0; c < S; ++c) {
+      s.stress[c] = soil_.stress[c].data(), s.stress_next[c] = soil_.stress_next[c].data();
+      s.artificial[c] = soil_.artificial[c].data(), s.stress_previous[c] = soil_.stress_previous[c].data();
+    }
+    s.start = soil_.start.data(), s.adps = soil_.adps.data(), s.id = soil_.id.data(), s.key = soil_.key.data();
+    s.image_term = soil_.image_term.data(), s.image_excess = soil_.image_excess.data();
+    return s;
+  }
+  WallView<Tr> wall_view() const {
+    WallView<Tr> b;
+    b.n = n_wall_;
+    if (!b.n) return b;
+    for (int k = 0; k < D; ++k)
+      b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
+    for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
+    b.start = wall_.start.data(), b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
+    b.term = wall_.term.data(), b.excess = wall_.excess.data(), b.id = wall_.id.data();
+    return b;
+  }
+
+  // Into the order of the particles file.
+  template <class Out, class In>
+  static std::vector<Out> by_id(const std::vector<In>& values, const std::vector<unsigned>& id) {
+    std::vector<Out> out(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) out[id[i]] = Out(values[i]);
+    return out;
+  }
+  template <class Out, class In>
+  void interleave(std::vector<Out>& out, const Array<In>* field, const std::vector<unsigned>& id, double factor = 1) const {
+    out.assign(3 * id.size(), Out(0));
+    for (int k = 0; k < D; ++k) {
+      const auto values = host(field[k]);
+      for (std::size_t i = 0; i < id.size(); ++i) out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
+    }
+  }
+  void positions(std::vector<double>& out, const Array<P>* field, const std::vector<unsigned>& id) const {
+    interleave(out, field, id);
+  }
+  void vectors(std::vector<float>& out, const Array<T>* field, const std::vector<unsigned>& id) const {
+    interleave(out, field, id);
+  }
+  void forces(std::vector<double>& out, const Array<T>* field, const std::vector<unsigned>& id, double mass) const {
+    interleave(out, field, id, mass);
+    for (std::size_t i = 0; i < id.size(); ++i)
+      for (int k = 0; k < D; ++k) out[3 * i + axis(k)] -= mass * double(p_.gravity.c[k]);
+  }
+  std::vector<float> stresses(const Array<T>* field, const std::vector<unsigned>& id) const {
+    std::vector<float> out(6 * id.size(), 0.f);
+    for (int c = 0; c < S; ++c) {
+      const auto values = host(field[c]);
+      for (std::size_t i = 0; i < id.size(); ++i) out[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
+    }
+    return out;
+  }
+  std::vector<unsigned char> lost(const Array<int>& start, const std::vector<unsigned>& id) const {
+    const int active = host(start)[grid_.cells];
+    std::vector<unsigned char> out(id.size(), 0);
+    for (std::size_t i = active; i < id.size(); ++i) out[id[i]] = 1;
+    return out;
+  }
+
+  /// Everything that a step reads from the one before, in the sorted order, so that a resumed run repeats the same sums.
+  template <class F>
+  void restart_arrays(F&& f) {
+    f(state_, "state");
+    water_.carried([&](auto& q, const char* name) { if (q.size()) f(q, std::string("water ") + name); });
+    for (auto& q : water_.a) if (q.size()) f(q, "water acceleration");
+    if (n_water_) f(water_.start, "water cell starts");
+    soil_.carried([&](auto& q, const char* name) { if (q.size()) f(q, std::string("soil ") + name); });
+    for (auto& q : soil_.a) if (q.size()) f(q, "soil acceleration");
+    if (n_soil_) f(soil_.start, "soil cell starts");
+  }
+
+  mutable Backend backend_;
+  ModelParameters model_;
+  NumberType type_;
+  int n_water_, n_soil_, n_wall_;
+  Parameters<Tr> p_;
+  Grid<T, D> grid_;
+  Water water_;
+  Soil soil_;
+  Wall wall_;
+  Array<StepState> state_;
+  Array<Limits<T>> limits_;
+  std::map<std::string, double> times_;
+};
+
+template <class Backend, class Tr>
+std::vector<std::string> ParticleSimulation<Backend, Tr>::left_out() const {
+  std::vector<std::string> out;
+  auto mebibytes = [](double bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f MiB", bytes / (1 << 20));
+    return std::string(text);
+  };
+  const double t = sizeof(T), soil = n_soil_, water = n_water_, wall = n_wall_;
+  // A code with one set of arrays for all particles would hold the soil's fields for every water and wall particle.
+  const double soil_fields = (3 * S + 1) * t;
+  if (!n_soil_) out.push_back("soil (stress, Adps, soil and interface kernels): " + mebibytes((water + wall) * soil_fields));
+  if (!n_water_) out.push_back("water (density, pressure, water and interface kernels): " + mebibytes((soil + wall) * 3 * t));
+  if (n_soil_ && n_water_) out.push_back("stress and Adps of water particles: " + mebibytes(water * soil_fields));
+  if (D == 2) out.push_back("the y direction (velocity, acceleration, two shear stresses): " +
+                            mebibytes(((water + soil) * 3 + soil * 4) * t));
+  if (n_water_ && !p_.density_diffusion) out.push_back("density diffusion: its part of the pair loop");
+  if (n_soil_ && !(p_.stress_diffusion > 0)) out.push_back("stress diffusion: its part of the pair loop");
+  if (n_soil_ && !(p_.artificial_stress > 0)) out.push_back("artificial stress: " + mebibytes(soil * S * t));
+  if (!p_.verlet) out.push_back("previous step's fields (Verlet): " + mebibytes((water * (D + 1) + soil * (D + S)) * t));
+  if (n_soil_ && n_water_ && !(p_.interface.repulsion.strength > 0)) out.push_back("interface repulsion: its part of the pair loop");
+  if (n_soil_ && !p_.coulomb_bed) out.push_back("Coulomb friction limit at the bed");
+  if (!n_wall_) out.push_back("walls");
+  return out;
+}
+
+}  // namespace lgiw

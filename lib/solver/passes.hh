@@ -1,0 +1,750 @@
+// The passes over particles that make a time step. Each is a functor over one particle's index that gathers from its
+// neighbours; the backends differ only in how they run it for all indices. Inner loops hold no branch on the phase: a phase
+// or feature that the scene lacks is skipped outside them.
+#pragma once
+
+#include "solver/parameters.hh"
+#include "solver/simulation.hh"
+
+namespace lgiw {
+
+// On the CPU a pair loop computes every candidate of a row, the kernel being zero outside its support, so that it
+// vectorises; on a device a far candidate is skipped at once.
+#if defined(__CUDA_ARCH__)
+#define LGIW_PAIR_LOOP
+#define LGIW_SKIP_FAR(r2, support2) if (r2 >= support2) continue
+#else
+#define LGIW_PAIR_LOOP _Pragma("GCC ivdep")
+#define LGIW_SKIP_FAR(r2, support2) (void)0
+#endif
+
+template <class Tr>
+struct Pass {
+  using T = typename Tr::T;
+  using P = typename Tr::P;
+  static constexpr int D = Tr::D, S = Tr::S;
+  using V = Vec<T, D>;
+  Grid<T, D> grid;
+  Parameters<Tr> parameters;
+  WaterView<Tr> water;
+  SoilView<Tr> soil;
+  WallView<Tr> wall;
+  const StepState* state;
+
+  template <class View>
+  LGIW_FN int cell_of(const View& view, int i) const {
+    Vec<T, D> x;
+    for (int k = 0; k < D; ++k) x.c[k] = view.x[k][i];
+    return grid.cell(x);
+  }
+  static LGIW_FN V load(const T* const* a, int i) {
+    V r;
+    for (int k = 0; k < D; ++k) r.c[k] = a[k][i];
+    return r;
+  }
+  static LGIW_FN void store(T* const* a, int i, const V& v) {
+    for (int k = 0; k < D; ++k) a[k][i] = v.c[k];
+  }
+  static LGIW_FN Stress<T, D> load_stress(const T* const* a, int i) {
+    Stress<T, D> r;
+    for (int k = 0; k < S; ++k) r.c[k] = a[k][i];
+    return r;
+  }
+  static LGIW_FN void store_stress(T* const* a, int i, const Stress<T, D>& s) {
+    for (int k = 0; k < S; ++k) a[k][i] = s.c[k];
+  }
+  /// True once the target time is reached or a particle has failed: what a device still has queued then changes nothing.
+  LGIW_FN bool idle() const {
+    return !(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX;
+  }
+  LGIW_FN T support2() const { return 4 * parameters.h * parameters.h; }
+  LGIW_FN T pore_pressure(T z) const { return largest(T(0), parameters.pore_gradient * (parameters.still_water_level - z)); }
+};
+
+/// Largest values that limit the time step.
+template <class T>
+struct Limits {
+  T acceleration2 = 0, mu = 0;   // |a|^2, |mu_ij|
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Motion
+
+/// Advances velocity and position, marks what has left the domain, finds states that have failed, and sets the sort key.
+/// Leapfrog: v^{n+1/2} = v^{n-1/2} + (dt_n + dt_{n-1})/2 a^n, r^{n+1} = r^n + dt_n v^{n+1/2}. Verlet: physics.md section 9.
+template <class Tr, bool is_water>
+struct Motion : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using P = typename Tr::P;
+  static constexpr int D = Tr::D;
+  int* lost;                        // counter in the state
+  unsigned* failed;                 // smallest failed id
+
+  /// |x| < limit, written so that it also holds under -ffinite-math-only: a NaN or infinity has the largest exponent.
+  static LGIW_FN bool sound(double x, double limit) {
+    union { double d; unsigned long long u; } bits{x};
+    return ((bits.u >> 52) & 0x7ff) != 0x7ff && x < limit && x > -limit;
+  }
+
+  template <class View>
+  LGIW_FN void move(const View& w, int i) const {
+    const StepState& st = *this->state;
+    const auto& p = this->parameters;
+    if (this->idle()) return;
+    if (i >= w.start[this->grid.cells]) {   // lost earlier: stays where it was last
+      w.key[i] = this->grid.cells;
+      return;
+    }
+    const bool held = !is_water && st.settling;
+    Vec<double, D> x;
+    bool fine = true, inside = true;
+    double speed2 = 0;
+    for (int k = 0; k < D; ++k) {
+      T v = w.v[k][i];
+      const T a = w.a[k][i];
+      double dx;
+      if (held) {
+        v = 0, dx = 0;
+      } else if (p.verlet) {
+        const bool euler = st.euler_countdown == 0;
+        const T next = euler ? v + T(st.dt) * a : w.v_previous[k][i] + T(st.dt + st.dt_previous) * a;
+        dx = st.dt * double(v) + 0.5 * st.dt * st.dt * double(a);
+        w.v_previous[k][i] = v;
+        v = next;
+      } else {
+        v += T(0.5 * (st.dt + st.dt_previous)) * a;
+        if (is_water && st.settling) v *= T(1 / (1 + st.dt * double(p.settle_rate)));
+        dx = st.dt * double(v);
+      }
+      const P position = P(double(w.position[k][i]) + dx);
+      w.v[k][i] = v;
+      speed2 += double(v) * double(v);
+      fine = fine && sound(double(position), 1e12);
+      x.c[k] = double(position);
+      inside = inside && x.c[k] >= p.low[k] && x.c[k] <= p.high[k];
+      if (inside) w.position[k][i] = position;
+    }
+    fine = fine && sound(speed2, double(p.speed_limit) * double(p.speed_limit));
+    if (!fine) {
+      fail(w.id[i]);
+      w.key[i] = this->grid.cells;
+      return;
+    }
+    if (!inside) {
+      for (int k = 0; k < D; ++k) {
+        const double edge = x.c[k] < p.low[k] ? p.low[k] : (x.c[k] > p.high[k] ? p.high[k] : x.c[k]);
+        w.position[k][i] = P(edge);
+        w.v[k][i] = 0;
+      }
+      count_lost();
+      w.key[i] = this->grid.cells;
+    } else {
+      Vec<T, D> rounded;                    // the passes look for their cell with positions in T
+      for (int k = 0; k < D; ++k) rounded.c[k] = T(x.c[k]);
+      w.key[i] = this->grid.cell(rounded);
+    }
+  }
+  LGIW_FN void operator()(int i) const {
+    if constexpr (is_water) move(this->water, i);
+    else move(this->soil, i);
+  }
+  LGIW_FN void fail(unsigned id) const {
+#if defined(__CUDA_ARCH__)
+    atomicMin(failed, id);
+#else
+#pragma omp critical(lgiw_failed_particle)
+    if (id < *failed) *failed = id;
+#endif
+  }
+  LGIW_FN void count_lost() const {
+#if defined(__CUDA_ARCH__)
+    atomicAdd(lost, 1);
+#else
+#pragma omp atomic
+    ++*lost;
+#endif
+  }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Rates: density of water, stress of soil
+
+/// Continuity of a water particle over water, walls and soil, and its new density.
+template <class Tr>
+struct WaterRates : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D;
+  unsigned* failed;
+
+  template <bool diffusion>
+  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
+    const auto& w = this->water;
+    const auto& p = this->parameters;
+    const T e_i = w.excess[i];
+    T rate = 0;
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(w.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(w.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const V v_ij = v - B::load(w.v, j);
+        const T f = p.kernel.gradient(square_root(r2));
+        if constexpr (diffusion) {
+          const T e_j = w.excess[j];
+          rate += p.continuity(r, v_ij, f, e_i, e_j, p.eos.rho0 + e_j);
+        } else {
+          rate += p.continuity(r, v_ij, f);
+        }
+      }
+    }
+    return rate;
+  }
+
+  LGIW_FN void operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& w = this->water;
+    if (this->idle() || i >= w.start[this->grid.cells]) {
+      w.excess_next[i] = w.excess[i];
+      return;
+    }
+    const int cell = this->cell_of(w, i);
+    const V x = B::load(w.x, i), v = B::load(w.v, i);
+    T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
+    if (this->wall.n) {
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(this->wall.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(this->wall.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          rate += this->wall.weight[j] * p.continuity(r, v, p.kernel.gradient(square_root(r2)));
+        }
+      }
+    }
+    if (this->soil.n) {
+      T sum = 0;
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(this->soil.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(this->soil.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          const V v_ws = v - B::load(this->soil.v, j);
+          sum += p.continuity(r, v_ws, p.kernel.gradient(square_root(r2)));
+        }
+      }
+      rate += p.velocity_factor * sum;
+    }
+    const StepState& st = *this->state;
+    T next;
+    if (p.verlet) {
+      const bool euler = st.euler_countdown == 0;
+      next = euler ? w.excess[i] + T(st.dt) * rate : w.excess_previous[i] + T(st.dt + st.dt_previous) * rate;
+      w.excess_previous[i] = w.excess[i];
+    } else {
+      next = w.excess[i] + T(st.dt) * rate;
+    }
+    // Half or twice the reference density is no water any more.
+    if (!Motion<Tr, true>::sound(double(next), 0.5 * double(p.eos.rho0))) {
+#if defined(__CUDA_ARCH__)
+      atomicMin(failed, w.id[i]);
+#else
+#pragma omp critical(lgiw_failed_particle)
+      if (w.id[i] < *failed) *failed = w.id[i];
+#endif
+      next = w.excess[i];
+    }
+    w.excess_next[i] = next;
+    const T rho = p.eos.rho0 + next;
+    w.term[i] = p.eos.pressure(next) / (rho * rho);
+  }
+};
+
+/// Velocity images at the walls for the soil's velocity gradient: -v_mean on rough walls, the mirror image on slipping ones.
+template <class Tr>
+struct WallVelocities : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D;
+
+  LGIW_FN void operator()(int i) const {
+    const auto& s = this->soil;
+    const auto& b = this->wall;
+    const int cell = this->cell_of(b, i);
+    const V x = B::load(b.x, i);
+    V sum{};
+    T weight = 0;
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(s.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(s.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const T w = this->parameters.kernel.value(square_root(r2));
+        weight += w;
+        add_scaled(sum, w, B::load(s.v, j));
+      }
+    }
+    V image{};
+    if (weight > 0) {
+      const V mean = (1 / weight) * sum, n = B::load(b.normal, i);
+      const T slip = b.slip[i], normal = dot(mean, n);
+      // slip 0: -mean; slip 1: mean - 2 (mean.n) n
+      for (int k = 0; k < D; ++k) image.c[k] = (2 * slip - 1) * mean.c[k] - 2 * slip * normal * n.c[k];
+    }
+    B::store(b.v, i, image);
+  }
+};
+
+/// Velocity gradient and stress diffusion of a soil particle, and its new stress.
+template <class Tr>
+struct SoilRates : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D, S = Tr::S;
+
+  template <bool diffusion>
+  LGIW_FN void over_soil(int cell, const V& x, const V& v, const Stress<T, D>& sigma, const Stress<T, D>& at_rest, T* l,
+                         Stress<T, D>& smoothing) const {
+    const auto& s = this->soil;
+    const auto& p = this->parameters;
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(s.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(s.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const V v_ji = B::load(s.v, j) - v;
+        const T f = p.kernel.gradient(square_root(r2));
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+        if constexpr (diffusion) {
+          const T g = dot(p.gravity, r);
+          for (int c = 0; c < S; ++c) smoothing.c[c] -= (s.stress[c][j] - sigma.c[c] - g * at_rest.c[c]) * f;
+        }
+      }
+    }
+  }
+
+  LGIW_FN void operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& s = this->soil;
+    const StepState& st = *this->state;
+    const Stress<T, D> sigma = B::load_stress(s.stress, i);
+    if (this->idle() || i >= s.start[this->grid.cells] || st.settling) {
+      B::store_stress(s.stress_next, i, sigma);
+      return;
+    }
+    const int cell = this->cell_of(s, i);
+    const V x = B::load(s.x, i), v = B::load(s.v, i);
+    const T pore = this->pore_pressure(x.c[D - 1]);
+    T l[D * D];
+    for (int k = 0; k < D * D; ++k) l[k] = 0;
+    Stress<T, D> smoothing;
+    for (int k = 0; k < S; ++k) smoothing.c[k] = 0;
+    if (p.stress_diffusion > 0)
+      over_soil<true>(cell, x, v, sigma, pore > 0 ? p.static_stress_wet : p.static_stress_dry, l, smoothing);
+    else
+      over_soil<false>(cell, x, v, sigma, p.static_stress_dry, l, smoothing);
+    if (this->wall.n) {
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(this->wall.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(this->wall.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          const V v_ji = B::load(this->wall.v, j) - v;
+          const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
+          for (int a = 0; a < D; ++a)
+            for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+        }
+      }
+    }
+    for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
+    const bool euler = !p.verlet || st.euler_countdown == 0;
+    const T dt = T(euler ? st.dt : st.dt + st.dt_previous);
+    Stress<T, D> increment = elastic_increment(p.soil, sigma, l, dt);
+    for (int k = 0; k < S; ++k) increment.c[k] += dt * p.stress_diffusion * p.volume * smoothing.c[k];
+    Stress<T, D> next = euler ? sigma : B::load_stress(s.stress_previous, i);
+    T adps;
+    if (p.return_mapping) {
+      for (int k = 0; k < S; ++k) next.c[k] += increment.c[k];
+      adps = return_mapping(p.soil, next, pore);
+    } else {
+      adps = rate_form_update(p.soil, next, increment, l, dt, pore);
+    }
+    s.adps[i] += euler ? adps : T(st.dt) / dt * adps;
+    if (p.verlet) B::store_stress(s.stress_previous, i, sigma);
+    B::store_stress(s.stress_next, i, next);
+    if (p.artificial_stress > 0) B::store_stress(s.artificial, i, lgiw::artificial_stress(next, p.artificial_stress));
+  }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Images: the state of a phase seen where the other phase or a wall is (Adami et al. 2012; physics.md sections 7, 8)
+
+/// Pressure of the surrounding water at x: sum V (p + rho g.(x - x_w)) W / sum V W; 0 where there is none.
+template <class Tr>
+struct WaterImage : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D;
+
+  LGIW_FN T pressure(int cell, const V& x, bool with_gravity) const {
+    const auto& w = this->water;
+    const auto& p = this->parameters;
+    T weight = 0, sum = 0;
+    V moment{};
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(w.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(w.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const T rho = p.eos.rho0 + w.excess[j];
+        const T kernel = p.kernel.value(square_root(r2));
+        weight += kernel / rho;                    // V_w = m_w / rho_w; the mass cancels
+        sum += kernel * rho * w.term[j];           // V p = m rho (p / rho^2)
+        add_scaled(moment, kernel, r);             // V rho = m
+      }
+    }
+    if (!(weight > 0)) return 0;
+    return (sum + (with_gravity ? dot(p.gravity, moment) : T(0))) / weight;
+  }
+};
+
+/// Water pressure and soil stress at a wall particle.
+template <class Tr>
+struct WallImages : WaterImage<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D, S = Tr::S;
+
+  LGIW_FN void operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& b = this->wall;
+    const int cell = this->cell_of(b, i);
+    const V x = B::load(b.x, i);
+    if (this->water.n) {
+      const T pressure = this->pressure(cell, x, true);
+      const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
+      b.excess[i] = excess;
+      b.term[i] = pressure / (rho * rho);
+    }
+    if (this->soil.n) B::store_stress(b.stress, i, soil_stress(i, cell, x));
+  }
+
+  LGIW_FN Stress<T, D> soil_stress(int i, int cell, const V& x) const {
+    const auto& p = this->parameters;
+    const auto& s = this->soil;
+    Stress<T, D> sum;
+    for (int c = 0; c < S; ++c) sum.c[c] = 0;
+    T weight = 0, moment = 0;
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(s.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(s.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const T kernel = p.kernel.value(square_root(r2));
+        weight += kernel;
+        moment += kernel * dot(p.gravity, r);
+        for (int c = 0; c < S; ++c) sum.c[c] += kernel * s.stress[c][j];
+      }
+    }
+    if (!(weight > 0)) return sum;
+    const Stress<T, D>& at_rest = this->pore_pressure(x.c[D - 1]) > 0 ? p.static_stress_wet : p.static_stress_dry;
+    for (int c = 0; c < S; ++c) sum.c[c] = (sum.c[c] - moment * at_rest.c[c]) / weight;
+    return this->wall.slip[i] > 0 ? reflect(sum, B::load(this->wall.normal, i)) : sum;
+  }
+};
+
+/// Water pressure at a soil particle, Eq. (12) with the hydrostatic term that it lacks.
+template <class Tr>
+struct SoilImages : WaterImage<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+
+  LGIW_FN void operator()(int i) const {
+    const auto& s = this->soil;
+    const auto& p = this->parameters;
+    T pressure = 0;
+    if (i < s.start[this->grid.cells])
+      pressure = this->pressure(this->cell_of(s, i), B::load(s.x, i), p.image_gravity);
+    const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
+    s.image_excess[i] = excess;
+    s.image_term[i] = pressure / (rho * rho);
+  }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Forces
+
+/// Damping towards rest near absorbing sides, 1/s: a quadratic ramp over the absorbing width.
+template <class Tr>
+LGIW_FN typename Tr::T absorbing_rate(const Parameters<Tr>& p, double x, double y) {
+  using T = typename Tr::T;
+  double depth = 0;                                        // 0 at the inner edge of the zone, 1 at the side
+  const double distance[4] = {x - p.side_at[0], p.side_at[1] - x, y - p.side_at[2], p.side_at[3] - y};
+  for (int s = 0; s < 4; ++s)
+    if (p.absorbing[s]) depth = largest(depth, 1 - distance[s] / p.absorbing_width);
+  return p.absorbing_rate * T(depth * depth);
+}
+
+/// Acceleration of a water particle.
+template <class Tr>
+struct WaterForces : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D;
+
+  LGIW_FN Limits<T> operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& w = this->water;
+    if (i >= w.start[this->grid.cells]) return {};
+    const int cell = this->cell_of(w, i);
+    const V x = B::load(w.x, i), v = B::load(w.v, i);
+    const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
+    V a{};
+    T mu_max = 0;
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(w.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(w.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const V v_ij = v - B::load(w.v, j);
+        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+        const T f = p.kernel.gradient(square_root(r2));
+        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+        add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
+      }
+    }
+    if (this->wall.n) {
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(this->wall.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(this->wall.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          const T mu = p.water_viscosity.mu(dot(v, r), r2);
+          const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
+          const T rho_mean = T(0.5) * (rho_i + rho0 + this->wall.excess[j]);
+          add_scaled(a, -(term_i + this->wall.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
+        }
+      }
+    }
+    a = p.water_mass * a;
+    if (this->soil.n) {
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(this->soil.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(this->soil.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          const V v_ij = v - B::load(this->soil.v, j);
+          const T distance = square_root(r2);
+          const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+          const T f = p.kernel.gradient(distance);
+          mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+          const T rho_mean = T(0.5) * (rho_i + rho0 + this->soil.image_excess[j]);
+          add_scaled(a, p.interface(distance, r2, f, mu, term_i, this->soil.image_term[j], rho_mean), r);
+        }
+      }
+    }
+    for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
+    if (p.absorbing_rate > 0) add_scaled(a, -absorbing_rate(p, double(x.c[0]), D == 3 ? double(x.c[1]) : 0.0), v);
+    B::store(w.a, i, a);
+    return {dot(a, a), mu_max};
+  }
+};
+
+/// Acceleration of a soil particle. `coulomb` compiles in the friction limit of a Coulomb bed.
+template <class Tr, bool coulomb>
+struct SoilForces : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D, S = Tr::S;
+
+  template <bool artificial>
+  LGIW_FN void over_soil(int i, int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a, T& mu_max) const {
+    const auto& p = this->parameters;
+    const auto& s = this->soil;
+    const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
+    const Stress<T, D> own = artificial ? B::load_stress(s.artificial, i) : Stress<T, D>{};
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(s.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(s.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, this->support2());
+        const V v_ij = v - B::load(s.v, j);
+        const T mu = p.soil_viscosity.mu(dot(v_ij, r), r2);
+        const T distance = square_root(r2);
+        const T f = p.kernel.gradient(distance);
+        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+        const T viscous = p.soil_viscosity(mu, p.soil_density);
+        Stress<T, D> sum;
+        for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
+        if constexpr (artificial) {
+          const T ratio = p.kernel.value(distance) * p.inverse_w_dp;
+          const T weight = std::pow(ratio, T(2.55));       // F^n, n = 2.55
+          for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
+        }
+        add_scaled(a, f, apply(sum, r));
+        add_scaled(a, -f * viscous, r);
+      }
+    }
+  }
+
+  LGIW_FN Limits<T> operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& s = this->soil;
+    if (i >= s.start[this->grid.cells]) return {};
+    const int cell = this->cell_of(s, i);
+    const V x = B::load(s.x, i), v = B::load(s.v, i);
+    const Stress<T, D> sigma = B::load_stress(s.stress, i);
+    V a{};
+    T mu_max = 0;
+    if (p.artificial_stress > 0) over_soil<true>(i, cell, x, v, sigma, a, mu_max);
+    else over_soil<false>(i, cell, x, v, sigma, a, mu_max);
+    if (this->wall.n) over_walls(cell, x, v, sigma, a);
+    a = p.soil_mass * a;
+    if (this->water.n) {
+      const auto& w = this->water;
+      const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
+      V sum{};
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        this->grid.row(w.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - B::load(w.x, j);                 // the law is written for water minus soil: odd in r
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, this->support2());
+          const V v_ij = v - B::load(w.v, j);
+          const T distance = square_root(r2);
+          const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+          const T f = p.kernel.gradient(distance);
+          const T rho_mean = T(0.5) * (rho_image + rho0 + w.excess[j]);
+          add_scaled(sum, p.interface(distance, r2, f, mu, w.term[j], image_term, rho_mean), r);
+        }
+      }
+      add_scaled(a, p.mass_ratio, sum);
+    }
+    for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
+    B::store(s.a, i, a);
+    return {dot(a, a), mu_max};
+  }
+
+  /// Adds the walls' part (per unit of soil mass) to a: physics.md section 8.
+  LGIW_FN void over_walls(int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a) const {
+    const auto& p = this->parameters;
+    const auto& b = this->wall;
+    const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
+    const T viscosity_on = p.wall_viscosity ? T(1) : T(0);
+    V bed{}, slipping{}, into_wall{};
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      this->grid.row(b.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - B::load(b.x, j), n = B::load(b.normal, j);
+        const T r2 = dot(r, r), slip = b.slip[j];
+        LGIW_SKIP_FAR(r2, this->support2());
+        // A slipping wall resists approach only.
+        const T vr = (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
+        const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
+        const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
+        Stress<T, D> sum;
+        for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
+        V force = f * apply(sum, r);
+        add_scaled(force, -f * viscous, r);
+        if constexpr (coulomb) {
+          add_scaled(bed, 1 - slip, force);
+          add_scaled(slipping, slip, force);
+          add_scaled(into_wall, (1 - slip) * f, r);
+        } else {
+          add_scaled(bed, T(1), force);
+        }
+      }
+    }
+    if constexpr (coulomb) {
+      const T length2 = dot(into_wall, into_wall);
+      if (length2 > 0) {
+        const V n = (-1 / square_root(length2)) * into_wall;
+        const T normal = dot(bed, n);
+        V tangential = bed;
+        add_scaled(tangential, -normal, n);
+        const T size = square_root(dot(tangential, tangential)), limit = p.bed_friction * largest(T(0), normal);
+        if (size > limit) {
+          tangential = (limit / size) * tangential;
+          bed = normal * n;
+          add_scaled(bed, T(1), tangential);
+        }
+      }
+      add_scaled(bed, T(1), slipping);
+    }
+    add_scaled(a, T(1), bed);
+  }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// The new time step, Eq. (21) with the soil's wave speed and a viscous limit, and the step's bookkeeping. `advance`: a step
+/// has just been completed; else (start, after settling) only dt is set.
+template <class Tr>
+LGIW_FN void finish_step(const Parameters<Tr>& p, const Limits<typename Tr::T>& limits, bool advance, StepState& st) {
+  const double h = double(p.h);
+  const double acoustic = h / (p.fastest_wave + double(limits.mu));
+  const double a = std::sqrt(double(limits.acceleration2));
+  const double force = a > 0 ? std::sqrt(h / a) : 1e30;
+  double dt = acoustic;
+  int limit = 0;
+  if (force < dt) dt = force, limit = 1;
+  if (p.slowest_viscous < dt) dt = p.slowest_viscous, limit = 2;
+  if (advance) {
+    st.time += st.dt;
+    ++st.step;
+    st.dt_previous = st.dt;
+    st.euler_countdown = st.euler_countdown == 0 ? 40 : st.euler_countdown - 1;
+  }
+  st.dt = p.cfl * dt;
+  st.limit = limit;
+}
+
+}  // namespace lgiw
