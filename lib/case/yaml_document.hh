@@ -63,7 +63,7 @@ class YamlDocument {
                   const std::set<std::string>& known);
   const std::string* override_of(const std::string& key) const;
 
-  YAML::Node root_;
+  YAML::Node root_{YAML::NodeType::Undefined};
   std::string name_;
   std::vector<std::pair<std::string, std::string>> overrides_;  // (dotted key, "--set key=value")
   std::map<std::string, std::string> places_;
