@@ -16,6 +16,7 @@ namespace lgiw {
 namespace {
 
 constexpr int64_t chunk_columns = 512;          // one thread's piece of work
+constexpr double rounding = 1e-6;               // of dp: coordinates this near to each other are equal
 constexpr int64_t most_particles = 2000000000;  // particle numbers are int32 on the devices
 
 /// What a stretch of columns yields; as blocks, or counted only.
@@ -49,10 +50,18 @@ struct Seeder::Parts {
 
   void integrate();
   void describe();
-  int64_t first_above(double z, const Lattice& lattice, bool even) const;
+  /// A column of a lattice: place, bed, its lowest layer, and the number of layers over which a lift of that one fades.
+  struct Column {
+    double x, y, foot;
+    int64_t lowest;
+    double settled;
+  };
+  int64_t first_above(double z, const Lattice& lattice, bool tie_above) const;
+  int64_t lowest_layer(double foot, double top, const Lattice& lattice, int64_t i, int64_t j) const;
   void place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) const;
-  void place_interval(const PhaseInterval& interval, const std::array<double, 3>& foot, int64_t lowest, int64_t i,
-                      int64_t j, bool keep, Yield& yield) const;
+  void place_interval(const PhaseInterval& interval, const Column& place, int64_t begin, int64_t end,
+                      Yield& yield) const;
+  void keep_off_bed(std::array<double, 3>& p, double foot) const;
   void work_on(int64_t begin, int64_t end, bool keep, Yield& yield) const;
 
   const Case c;
@@ -130,12 +139,24 @@ void Seeder::Parts::describe() {
   header.high = {cells.x_high(), y_high, top + std::max(top - bed.lowest(), 20 * c.dp)};
 }
 
-/// Number of the lowest lattice point above z. One exactly at z counts as above it on even columns only: half of them,
-/// so that volumes stay unbiased also where lattice and surface are commensurate.
-int64_t Seeder::Parts::first_above(double z, const Lattice& lattice, bool even) const {
+/// Number of the lowest lattice point above z; of a point exactly at z, `tie_above` says on which side it is.
+int64_t Seeder::Parts::first_above(double z, const Lattice& lattice, bool tie_above) const {
   const double number = (z - lattice.z_phase) / cells.dp - 0.5, nearest = std::round(number);
-  if (std::abs(number - nearest) < 1e-6) return int64_t(nearest) + (even ? 0 : 1);
+  if (std::abs(number - nearest) < rounding) return int64_t(nearest) + (tie_above ? 0 : 1);
   return int64_t(std::ceil(number));
+}
+
+/// Number of the lowest lattice point of a column whose bed lies at `foot` and whose highest phase ends at `top`. A
+/// column H layers deep gets floor(H + threshold) of them; the thresholds of neighbouring columns are a low-discrepancy
+/// sequence (Roberts' R2: the inverse powers of the plastic number) around 1/2, so that their mean is H also over a
+/// flat bed. In shallow columns they close in on 1/2: beaches get no particles that stand out of the water.
+int64_t Seeder::Parts::lowest_layer(double foot, double top, const Lattice& lattice, int64_t i, int64_t j) const {
+  double height = (foot - lattice.z_phase) / cells.dp;
+  if (std::abs(height - std::round(height)) < rounding) height = std::round(height);
+  const double sequence = 0.5 + 0.7548776662466927 * double(i) + 0.5698402909980532 * double(j);
+  const double spread = std::min(1.0, (top - foot) / (settled_layers * cells.dp));
+  const double threshold = 0.5 + spread * (sequence - std::floor(sequence) - 0.5);
+  return int64_t(std::ceil(height - threshold));
 }
 
 void Seeder::Parts::place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) const {
@@ -143,41 +164,38 @@ void Seeder::Parts::place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) c
   const bool even = (i + j) % 2 == 0;
   for (std::size_t number = 0; number < columns.lattices().size(); ++number) {
     const Lattice& lattice = columns.lattices()[number];
-    const double x = cells.x(i) + lattice.x_offset, y = cells.y(j), foot = bed.height(x, y);
-    columns.at(x, y, foot, column);
+    Column place{cells.x(i) + lattice.x_offset, cells.y(j), 0, 0, 0};
+    place.foot = bed.height(place.x, place.y);
+    columns.at(place.x, place.y, place.foot, column);
     if (column.empty()) continue;
-    const int64_t lowest = first_above(foot, lattice, even);
-    for (const PhaseInterval& interval : column)
-      if (interval.lattice == int(number)) place_interval(interval, {x, y, foot}, lowest, i, j, keep, yield);
+    const double top = column.back().high, touching = place.foot + rounding * cells.dp;
+    const bool on_bed = column.front().low <= touching;
+    place.lowest = on_bed ? lowest_layer(place.foot, top, lattice, i, j) : first_above(place.foot, lattice, even);
+    place.settled = double(std::clamp<int64_t>(first_above(top, lattice, even) - place.lowest, 4, settled_layers));
+    for (const PhaseInterval& interval : column) {
+      if (interval.lattice != int(number)) continue;
+      const int64_t begin =
+          interval.low <= touching ? place.lowest : std::max(place.lowest, first_above(interval.low, lattice, even));
+      const int64_t end = first_above(interval.high, lattice, even);
+      if (end <= begin) continue;
+      (interval.phase == Phase::water ? yield.counts.water : yield.counts.soil) += end - begin;
+      if (keep) place_interval(interval, place, begin, end, yield);
+    }
   }
 }
 
-void Seeder::Parts::place_interval(const PhaseInterval& interval, const std::array<double, 3>& foot, int64_t lowest,
-                                   int64_t i, int64_t j, bool keep, Yield& yield) const {
+void Seeder::Parts::place_interval(const PhaseInterval& interval, const Column& place, int64_t begin, int64_t end,
+                                   Yield& yield) const {
   const Lattice& lattice = columns.lattices()[std::size_t(interval.lattice)];
-  const bool even = (i + j) % 2 == 0, water = interval.phase == Phase::water;
-  const int64_t begin = std::max(lowest, first_above(interval.low, lattice, even));
-  const int64_t end = first_above(interval.high, lattice, even);
-  if (end <= begin) return;
-  (water ? yield.counts.water : yield.counts.soil) += end - begin;
-  if (!keep) return;
-
+  const bool water = interval.phase == Phase::water;
   const double dp = cells.dp, volume = cells.two_d ? dp * dp : dp * dp * dp;
-  const double lift = 0.5 * dp - (lattice.z_phase + (double(lowest) + 0.5) * dp - foot[2]);
+  const double lift = 0.5 * dp - (lattice.z_phase + (double(place.lowest) + 0.5) * dp - place.foot);
   ParticleBlock& block = water ? yield.water : yield.soil;
   for (int64_t k = begin; k < end; ++k) {
-    std::array<double, 3> p{foot[0], foot[1], lattice.z_phase + (double(k) + 0.5) * dp};
-    p[2] += lift * std::max(0.0, 1 - double(k - lowest) / settled_layers);
-    if (k - lowest < 2) {
-      const std::array<double, 2> slope = bed.gradient(p[0], p[1]);
-      const double stretch = std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
-      const double missing = nearest_wall * dp - (p[2] - foot[2]) / stretch;
-      if (missing > 0) {
-        p[0] -= missing * slope[0] / stretch, p[1] -= missing * slope[1] / stretch, p[2] += missing / stretch;
-        p[0] = std::clamp(p[0], cells.x_low + 0.5 * dp, cells.x_high() - 0.5 * dp);
-        if (!cells.two_d) p[1] = std::clamp(p[1], cells.y_low + 0.5 * dp, cells.y_high() - 0.5 * dp);
-      }
-    }
+    const double layer = double(k - place.lowest);
+    std::array<double, 3> p{place.x, place.y, lattice.z_phase + (double(k) + 0.5) * dp};
+    p[2] += lift * std::max(0.0, 1 - layer / place.settled);
+    if (layer < 2) keep_off_bed(p, place.foot);
     block.points.insert(block.points.end(), p.begin(), p.end());
     block.volume.push_back(float(volume));
     if (water) {
@@ -193,6 +211,18 @@ void Seeder::Parts::place_interval(const PhaseInterval& interval, const std::arr
       block.density.push_back(float(c.soil.density));
     }
   }
+}
+
+/// Moves a particle over a bed at height `foot` out along the normal where it is too near, but not through a side.
+void Seeder::Parts::keep_off_bed(std::array<double, 3>& p, double foot) const {
+  const std::array<double, 2> slope = bed.gradient(p[0], p[1]);
+  const double stretch = std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+  const double missing = nearest_wall * cells.dp - (p[2] - foot) / stretch;
+  if (missing <= 0) return;
+  p[0] -= missing * slope[0] / stretch, p[1] -= missing * slope[1] / stretch, p[2] += missing / stretch;
+  const double half = 0.5 * cells.dp;
+  p[0] = std::clamp(p[0], cells.x_low + half, cells.x_high() - half);
+  if (!cells.two_d) p[1] = std::clamp(p[1], cells.y_low + half, cells.y_high() - half);
 }
 
 void Seeder::Parts::work_on(int64_t begin, int64_t end, bool keep, Yield& yield) const {
@@ -228,7 +258,8 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
   Yield sum;
   for (int64_t first = 0; first < chunks; first += round) {
     const int64_t last = std::min(chunks, first + round);
-    std::vector<Yield> yields(static_cast<std::size_t>(last - first));  // summed in order, so that volumes do not depend on threads
+    std::vector<Yield> yields(
+        static_cast<std::size_t>(last - first));  // summed in order, so that volumes do not depend on threads
 #pragma omp parallel for schedule(dynamic)
     for (int64_t k = first; k < last; ++k)
       parts_->work_on(k * chunk_columns, std::min(columns, (k + 1) * chunk_columns), false,

@@ -25,18 +25,20 @@ struct SeedingReport {
 /// Places the particles of a case: water and soil on a common lattice of spacing dp, walls as lib/seeding/walls.hh has
 /// it.
 ///
-/// The lattice has a layer of particles half a dp below the still water. A lattice point belongs to the phase it lies
-/// in and particles stand for dp^D each, which leaves volumes unbiased whatever the shape of the bed; a point that lies
-/// exactly on a boundary counts on every other column. The lowest `settled_layers` of a column are then moved so that
-/// the lowest lies half a dp above the bed: no voids and no crowding at the wall, without a change in volume. On slopes
-/// steeper than 45 degrees particles nearer than `nearest_wall` dp (across the bed) to it are moved out to that
-/// distance.
+/// The lattice has a layer of particles half a dp below the still water. A particle stands for dp^D; a column H layers
+/// deep gets H of them on average over neighbouring columns, so that volumes are unbiased whatever the shape of the
+/// bed. The lowest `settled_layers` of a column are stretched or squeezed so that the lowest lies half a dp above the
+/// bed: neither voids nor crowding at the wall. On steep slopes particles nearer than `nearest_wall` dp (across the
+/// bed) are moved out to that distance. Measured in 2-D, Wendland kernel h = 1.5 dp, slopes of 0 to 70 degrees that
+/// meet the lattice in seven places each: volume error of a basin 20 dp deep 0.2 %, nearest pair 0.83 dp, nearest wall
+/// particle 0.85 dp, sum of V W over water and wall 0.93 to 1.10 (RMS error 2.5 %). Taking plain lattice points above
+/// the bed instead errs by 2 % in volume over flat beds and lets particles stand anywhere from 0 to 1 dp above it.
 ///
 /// The order is water, soil, wall, each row by row of map columns from the south-west, in a column upwards (walls
 /// downwards): it depends neither on the tile size nor on the number of threads.
 class Seeder {
  public:
-  static constexpr int settled_layers = 4;
+  static constexpr int settled_layers = 8;
   static constexpr double nearest_wall = 0.35;
 
   /// `model` must outlive the seeder. Throws InputError for cases without terrain or with more than 2e9 particles.
