@@ -32,8 +32,12 @@ MapCells map_cells(const Case& c, const TerrainModel& model) {
   MapCells cells;
   cells.dp = c.dp;
   cells.two_d = c.dimension == 2;
-  const double x_high = model.domain[2], y_high = model.domain[3];
-  cells.x_low = model.domain[0], cells.y_low = model.domain[1];
+  // The nodes of a DEM are the centres of its cells: the outermost cells belong to the domain as wholes.
+  const double half = c.terrain.profile.empty() ? 0.5 * model.bed.dx : 0.0;
+  const double x_high = model.domain[2] + half, y_high = model.domain[3] + half;
+  cells.x_low = model.domain[0] - half, cells.y_low = model.domain[1] - half;
+  cells.east_moved = cells.x_low + c.dp * std::round((x_high - cells.x_low) / c.dp) - x_high;
+  cells.north_moved = cells.two_d ? 0 : cells.y_low + c.dp * std::round((y_high - cells.y_low) / c.dp) - y_high;
   const auto cells_between = [&](double low, double high) {
     return std::max<int64_t>(1, std::llround((high - low) / c.dp));
   };
@@ -53,7 +57,8 @@ BedSurface::BedSurface(const Case& c, const TerrainModel& model, const MapCells&
       y_max_(cells.y_high()),
       half_width_(0.5 * c.dp * (1 - 1e-6)),
       two_d_(cells.two_d) {
-  if (!c.terrain.profile.empty()) {
+  const bool carved = c.slide.present && c.slide.bodies.empty();  // then the bed is the slide's failure surface
+  if (!c.terrain.profile.empty() && !carved) {
     profile_ = local_profile(c, model, cells);
     const auto by_height = [](const Point2& a, const Point2& b) { return a[1] < b[1]; };
     const auto [low, high] = std::minmax_element(profile_.begin(), profile_.end(), by_height);

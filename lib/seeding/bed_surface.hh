@@ -11,12 +11,14 @@
 namespace lgiw {
 
 /// Map cells of dp x dp over the domain, with a rim of `rim` cells outside for walls; in 2-D one row and no rim in y.
-/// The domain's east and north sides lie at the multiple of dp nearest to the window's, so that the lattice fits.
+/// The domain is that of the terrain, of a DEM out to the edges of its outermost cells; its east and north sides lie at
+/// the multiple of dp nearest to the window's, so that the lattice fits.
 struct MapCells {
   double x_low = 0, y_low = 0, dp = 1;
   int64_t nx = 1, ny = 1;  // inside the domain
   int64_t rim = 0, rim_y = 0;
   bool two_d = false;
+  double east_moved = 0, north_moved = 0;  // m
 
   int64_t width() const { return nx + 2 * rim; }
   int64_t count() const { return width() * (ny + 2 * rim_y); }

@@ -16,6 +16,7 @@ namespace lgiw {
 namespace {
 
 constexpr int64_t chunk_columns = 512;          // one thread's piece of work
+constexpr int shallow_layers = 4;               // a column with fewer is shallow
 constexpr double rounding = 1e-6;               // of dp: coordinates this near to each other are equal
 constexpr int64_t most_particles = 2000000000;  // particle numbers are int32 on the devices
 
@@ -114,8 +115,7 @@ void Seeder::Parts::describe() {
   gravity = vertical_gravity(c);
   pore_water =
       c.water.present && c.soil.pore_pressure == PorePressure::hydrostatic && std::isfinite(model.still_water_level);
-  report.east_moved = cells.x_high() - model.domain[2];
-  report.north_moved = cells.two_d ? 0 : cells.y_high() - model.domain[3];
+  report.east_moved = cells.east_moved, report.north_moved = cells.north_moved;
 
   header.dimension = c.dimension;
   header.dp = c.dp;
@@ -154,7 +154,7 @@ int64_t Seeder::Parts::lowest_layer(double foot, double top, const Lattice& latt
   double height = (foot - lattice.z_phase) / cells.dp;
   if (std::abs(height - std::round(height)) < rounding) height = std::round(height);
   const double sequence = 0.5 + 0.7548776662466927 * double(i) + 0.5698402909980532 * double(j);
-  const double spread = std::min(1.0, (top - foot) / (settled_layers * cells.dp));
+  const double spread = std::min(1.0, (top - foot) / (shallow_layers * cells.dp));
   const double threshold = 0.5 + spread * (sequence - std::floor(sequence) - 0.5);
   return int64_t(std::ceil(height - threshold));
 }
@@ -171,7 +171,8 @@ void Seeder::Parts::place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) c
     const double top = column.back().high, touching = place.foot + rounding * cells.dp;
     const bool on_bed = column.front().low <= touching;
     place.lowest = on_bed ? lowest_layer(place.foot, top, lattice, i, j) : first_above(place.foot, lattice, even);
-    place.settled = double(std::clamp<int64_t>(first_above(top, lattice, even) - place.lowest, 4, settled_layers));
+    place.settled =
+        double(std::clamp<int64_t>(first_above(top, lattice, even) - place.lowest, shallow_layers, settled_layers));
     for (const PhaseInterval& interval : column) {
       if (interval.lattice != int(number)) continue;
       const int64_t begin =

@@ -1,0 +1,199 @@
+// dem2particles: a case and its terrain to particles.
+#include <gdal_version.h>
+#include <hdf5.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/atomic_file.hh"
+#include "base/error.hh"
+#include "base/tool_main.hh"
+#include "seeding/run_estimate.hh"
+#include "seeding/seeding.hh"
+
+namespace {
+
+using namespace lgiw;
+using nlohmann::ordered_json;
+
+const std::string library_versions = std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " +
+                                     std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." +
+                                     std::to_string(H5_VERS_RELEASE);
+
+struct Options {
+  std::string case_file, output;
+  std::vector<std::string> overrides;
+  bool dry_run = false;
+  double rate = 0;
+  CommonOptions common;
+};
+
+/// Difference of a to the expected b in per cent; nothing to compare with is no difference.
+double difference(double a, double b) { return b > 0 ? 100 * (a / b - 1) : 0; }
+
+ordered_json volumes(int64_t count, double volume, double expected, double surveyed) {
+  ordered_json j{{"particles", count},
+                 {"volume", volume},
+                 {"volume_between_surfaces", expected},
+                 {"difference_percent", difference(volume, expected)}};
+  if (surveyed > 0) {
+    j["terrain_volume"] = surveyed;
+    j["terrain_difference_percent"] = difference(volume, surveyed);
+  }
+  return j;
+}
+
+ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& seeder, double rate) {
+  const SeedingReport& r = seeder.report();
+  const RunEstimate run = estimate_run(c, r, seeder.header().sound_speed, rate);
+  ordered_json j;
+  j["case"] = c.name;
+  j["dimension"] = c.dimension;
+  j["particle_spacing"] = c.dp;
+  j["particles"] = {{"water", r.counts.water},
+                    {"soil", r.counts.soil},
+                    {"wall", r.counts.wall},
+                    {"total", r.counts.total()},
+                    {"left_out", r.counts.wall_left_out}};
+  // Reservoir and slide as the terrain has them, from the cells of the source.
+  if (c.water.present) {
+    j["water"] = volumes(r.counts.water, r.water_volume, r.water_expected, model.reservoir_volume);
+    j["water"]["greatest_depth"] = r.max_water_depth;
+    j["water"]["sound_speed"] = seeder.header().sound_speed;
+  }
+  if (c.slide.present) j["soil"] = volumes(r.counts.soil, r.soil_volume, r.soil_expected, model.slide_volume);
+  j["terrain"] = {{"voids_filled", model.voids_filled},
+                  {"spikes", model.spikes},
+                  {"spikes_removed", model.spikes_removed},
+                  {"east_side_moved", r.east_moved},
+                  {"north_side_moved", r.north_moved}};
+  j["run"] = {{"memory_bytes", run.memory_bytes},
+              {"time_step", run.time_step},
+              {"steps", run.steps},
+              {"end_time", c.output.end_time},
+              {"rate", rate},
+              {"run_time_s", run.run_time}};
+  j["notes"] = model.notes;
+  return j;
+}
+
+std::string line(const char* format, auto... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return std::string(text) + "\n";
+}
+
+std::string phase_line(const std::string& name, const ordered_json& j, int dimension) {
+  const char* unit = dimension == 2 ? "m2" : "m3";
+  std::string text = line("%-6s %12lld particles  %.6g %s (%+.2f %% of the %.6g %s between the surfaces)", name.c_str(),
+                          j["particles"].get<long long>(), j["volume"].get<double>(), unit,
+                          j["difference_percent"].get<double>(), j["volume_between_surfaces"].get<double>(), unit);
+  if (j.contains("terrain_volume"))
+    text += line("       %+.2f %% of the terrain's %.6g %s", j["terrain_difference_percent"].get<double>(),
+                 j["terrain_volume"].get<double>(), unit);
+  return text;
+}
+
+std::string report_text(const ordered_json& j) {
+  const auto& p = j["particles"];
+  std::string text;
+  for (const char* phase : {"water", "soil"})
+    if (j.contains(phase)) text += phase_line(phase, j[phase], j["dimension"].get<int>());
+  text += line("wall   %12lld particles, %lld more left out where neither water nor soil can get",
+               p["wall"].get<long long>(), p["left_out"].get<long long>());
+  text += line("total  %12lld particles at %g m", p["total"].get<long long>(), j["particle_spacing"].get<double>());
+  if (j.contains("water"))
+    text += line("water  %.4g m deep, sound speed %.4g m/s", j["water"]["greatest_depth"].get<double>(),
+                 j["water"]["sound_speed"].get<double>());
+  const auto& t = j["terrain"];
+  if (t["voids_filled"] != 0 || t["spikes"] != 0)
+    text += line("terrain %lld voids filled, %lld spikes, %lld of them removed", t["voids_filled"].get<long long>(),
+                 t["spikes"].get<long long>(), t["spikes_removed"].get<long long>());
+  for (const auto& [key, name] : {std::pair{"east_side_moved", "east"}, std::pair{"north_side_moved", "north"}})
+    if (std::abs(t[key].get<double>()) > 1e-6 * j["particle_spacing"].get<double>())
+      text += line("the %s side is moved by %.4g m to a multiple of the particle spacing", name, t[key].get<double>());
+  const auto& r = j["run"];
+  text += line("lgiw-run: about %.3g MB, time step %.3g s, %.0f steps to %g s, %s at %.3g particle-steps/s",
+               r["memory_bytes"].get<double>() / 1e6, r["time_step"].get<double>(), r["steps"].get<double>(),
+               r["end_time"].get<double>(), format_duration(r["run_time_s"].get<double>()).c_str(),
+               r["rate"].get<double>());
+  for (const auto& note : j["notes"]) text += note.get<std::string>() + "\n";
+  return text;
+}
+
+int run(const Options& options, const std::string& command) {
+  LGIW_VALIDATE(options.dry_run || !options.output.empty(), "no output is named", "particles are written to a file",
+                "Give -o particles.h5, or --dry-run for counts only");
+  const bool quiet = options.common.quiet;
+  const Case c = read_case(options.case_file, options.overrides);
+  std::optional<AtomicFile> file;  // refuses an existing output before any work
+  if (!options.dry_run) file.emplace(options.output, options.common.overwrite);
+  if (!quiet)
+    for (const std::string& warning : case_warnings(c)) std::cerr << "dem2particles: " << warning << "\n";
+
+  Provenance provenance;
+  provenance.enabled = options.common.provenance;
+  provenance.tool = "dem2particles";
+  provenance.version = version_string();
+  provenance.command_line = command;
+  if (options.case_file != "-") provenance.add_input(options.case_file);
+  const TerrainModel model = build_terrain(c, provenance);
+
+  Seeder seeder(c, model);
+  {
+    Progress progress(options.common.show_progress(), "counting particles");
+    seeder.count([&](double done) { progress.update(done); });
+  }
+  const SeedingReport& report = seeder.report();
+  LGIW_VALIDATE(!c.water.present || report.counts.water > 0, "there is no water",
+                "no lattice point lies in it at a spacing of " + std::to_string(c.dp) + " m",
+                "Choose a smaller particle_spacing or another water.level");
+  LGIW_VALIDATE(!c.slide.present || report.counts.soil > 0, "there is no soil",
+                "no lattice point lies in it at a spacing of " + std::to_string(c.dp) + " m",
+                "Choose a smaller particle_spacing or a thicker slide");
+  const double rate = options.rate > 0 ? options.rate : default_particle_rate(c.dimension);
+  const ordered_json result = summary(c, model, seeder, rate);
+
+  if (!options.dry_run) {
+    ParticleHeader header = seeder.header();
+    header.provenance = provenance.to_json();
+    ParticleWriter writer(file->temporary(), header);
+    Progress progress(options.common.show_progress(), "writing particles");
+    seeder.seed([&](const ParticleBlock& block) { writer.append(block); }, [&](double done) { progress.update(done); });
+    writer.finish();
+    file->commit();
+  }
+  if (options.common.json)
+    std::cout << result.dump(2) << "\n";
+  else if (options.dry_run)
+    std::cout << report_text(result);
+  else if (!quiet)
+    std::cerr << report_text(result);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Turns a case - terrain, still water, slide - into particles for lgiw-run.", "dem2particles");
+  app.add_option("case", options.case_file, "Case file (YAML); - for stdin")->required()->type_name("CASE");
+  app.add_option("-o,--output", options.output, "Particles file to write (VTKHDF)")->type_name("FILE");
+  app.add_option("--set", options.overrides, "Override a key of the case, e.g. --set water.level=745; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("--dry-run", options.dry_run, "Counts, volumes and what a run will take; writes nothing");
+  app.add_option("--rate", options.rate, "Particle-steps a second that run times are estimated with")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+  add_common_options(app, options.common, library_versions);
+  app.footer(
+      "Example:\n  dem2particles case.yaml --dry-run\n  dem2particles case.yaml -o particles.h5 --set "
+      "particle_spacing=10");
+  const std::string command = command_line(argc, argv);
+  return tool_main(app, argc, argv, [&] { return run(options, command); });
+}
