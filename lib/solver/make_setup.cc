@@ -1,0 +1,110 @@
+#include "solver/make_setup.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "physics/kernel.hh"
+#include "physics/soil.hh"
+#include "physics/water.hh"
+
+namespace lgiw {
+namespace {
+
+constexpr double degree = pi / 180;
+
+/// Greatest height of a column of soil particles, one dp wide, m.
+double greatest_soil_height(const ParticleBlock& soil, double dp) {
+  std::map<std::pair<long, long>, std::pair<double, double>> columns;
+  for (std::size_t i = 0; i < soil.size(); ++i) {
+    const double z = soil.points[3 * i + 2];
+    auto [it, first] = columns.try_emplace({std::lround(std::floor(soil.points[3 * i] / dp)),
+                                            std::lround(std::floor(soil.points[3 * i + 1] / dp))}, z, z);
+    if (!first) it->second = {std::min(it->second.first, z), std::max(it->second.second, z)};
+  }
+  double height = 0;
+  for (const auto& [column, range] : columns) height = std::max(height, range.second - range.first + dp);
+  return height;
+}
+
+double greatest_water_depth(const ParticleData& data) {
+  double lowest = data.header.still_water_level;
+  for (std::size_t i = 0; i < data.water.size(); ++i) lowest = std::min(lowest, data.water.points[3 * i + 2]);
+  return data.water.size() ? data.header.still_water_level - lowest + 0.5 * data.header.dp : 0;
+}
+
+}  // namespace
+
+NumberType number_type(Precision precision) {
+  switch (precision) {
+    case Precision::single_: return NumberType::single_;
+    case Precision::double_: return NumberType::double_;
+    default: return NumberType::mixed;
+  }
+}
+
+ModelParameters make_model(const Case& c, const ParticleData& data) {
+  const ParticleHeader& header = data.header;
+  ModelParameters p;
+  p.dimension = header.dimension;
+  p.dp = header.dp, p.h = c.numerics.h_over_dp * header.dp;
+  p.gravity = c.gravity;
+  p.cubic_kernel = c.numerics.kernel == KernelName::cubic;
+  p.verlet = c.numerics.integrator == Integrator::verlet;
+  p.cfl = c.numerics.cfl;
+  const double g = std::hypot(c.gravity[0], c.gravity[1], c.gravity[2]);
+  const bool water = data.water.size() > 0, soil = data.soil.size() > 0;
+  p.water_density = c.water.density;
+  if (water) {
+    p.sound_speed = header.sound_speed;
+    p.water_alpha = c.water.viscosity_alpha;
+    p.density_diffusion = c.water.density_diffusion;
+    p.still_water_level = header.still_water_level;
+  }
+  if (soil) {
+    const Soil& s = c.soil;
+    p.soil_density = s.density, p.young_modulus = s.young_modulus, p.poisson_ratio = s.poisson_ratio;
+    p.friction = s.friction_angle * degree, p.dilatancy = s.dilatancy_angle * degree, p.cohesion = s.cohesion;
+    p.cone = int(s.cone == ConeMatching::plane_strain ? Cone::plane_strain
+                 : s.cone == ConeMatching::compression_cone ? Cone::compression : Cone::plane_strain_associated);
+    p.stress_diffusion = s.stress_diffusion, p.artificial_stress = s.artificial_stress;
+    p.return_mapping = c.numerics.return_mapping, p.wall_viscosity = c.numerics.wall_viscosity;
+    p.k0 = 1 - std::sin(p.friction);
+    if (water && s.pore_pressure == PorePressure::hydrostatic) p.pore_gradient = c.water.density * g;
+    p.coulomb_bed = s.bed == WallFriction::coulomb, p.free_slip_bed = s.bed == WallFriction::free_slip;
+    p.free_slip_sides = s.sides == WallFriction::free_slip;
+    p.bed_friction = std::tan(s.bed_friction_angle * degree);
+    const double wave = SoilMaterial<double>::wave_speed(s.young_modulus, s.poisson_ratio, s.density);
+    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha
+                                         : 3 * std::sqrt(g * greatest_soil_height(data.soil, header.dp)) / wave;
+  }
+  p.velocity_factor = c.interface.velocity_factor;
+  p.repulsion = c.interface.repulsion;
+  p.image_gravity = c.numerics.scheme != "huang2023";
+  p.low = header.low, p.high = header.high;
+  p.side_at = {header.low[0], header.high[0], header.low[1], header.high[1]};
+  p.absorbing_width = header.absorbing_width;
+  bool any_absorbing = false;
+  for (int side = 0; side < 4; ++side) {
+    p.absorbing[side] = header.sides[side] == Side::absorbing && (header.dimension == 3 || side < 2);
+    any_absorbing = any_absorbing || p.absorbing[side];
+  }
+  if (any_absorbing && water) p.absorbing_rate = 9 * std::sqrt(g * greatest_water_depth(data)) / p.absorbing_width;
+  p.settle_rate = std::sqrt(g / p.dp);
+  return p;
+}
+
+InitialParticles make_particles(const Case& c, const ParticleData& data) {
+  InitialParticles in;
+  in.water_x = data.water.points, in.soil_x = data.soil.points, in.wall_x = data.wall.points;
+  in.soil_stress = data.soil.stress;
+  in.wall_normal = data.wall.normal, in.wall_volume = data.wall.volume, in.wall_kind = data.wall.kind;
+  // From the pressure, whose single precision is finer than that of the density.
+  const EquationOfState<double> eos(c.water.density, data.header.sound_speed);
+  in.water_excess.reserve(data.water.size());
+  for (float pressure : data.water.pressure) in.water_excess.push_back(float(eos.excess(double(pressure))));
+  return in;
+}
+
+}  // namespace lgiw

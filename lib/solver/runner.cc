@@ -1,0 +1,420 @@
+#include "solver/runner.hh"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.hh"
+#include "base/provenance.hh"
+#include "files/run_file.hh"
+#include "measure/column_surface.hh"
+#include "physics/soil.hh"
+#include "solver/checkpoint.hh"
+#include "solver/diagnostics.hh"
+#include "solver/make_setup.hh"
+
+namespace lgiw {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t caught_signal = 0;
+void on_signal(int s) { caught_signal = s; }
+
+/// Catches SIGINT and SIGTERM while it lives.
+class SignalGuard {
+ public:
+  SignalGuard() {
+    caught_signal = 0;
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, &old_int_);
+    sigaction(SIGTERM, &action, &old_term_);
+  }
+  ~SignalGuard() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+  }
+
+ private:
+  struct sigaction old_int_ {}, old_term_ {};
+};
+
+const char* limit_name(int limit) { return limit == 0 ? "acoustic" : (limit == 1 ? "force" : "viscous"); }
+
+std::unique_ptr<Simulation> make_simulation(const Case& c, const ModelParameters& model, const InitialParticles& in,
+                                            const std::function<void(const std::string&)>& log) {
+  const NumberType type = number_type(c.numerics.precision);
+  std::string why;
+  switch (c.numerics.backend) {
+    case Backend::cuda:
+      return make_cuda_simulation(model, in, type);
+    case Backend::auto_:
+      if (cuda_available(&why)) return make_cuda_simulation(model, in, type);
+      if (log) log("no CUDA device (" + why + "): running on the CPU");
+      break;
+    default:
+      break;
+  }
+  return make_cpu_simulation(model, in, type);
+}
+
+SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
+  SurfaceMap m;
+  m.dx = c.output.map_spacing > 0 ? c.output.map_spacing : h.dp;
+  const auto cells = [&](double low, double high) { return std::max<std::size_t>(1, std::size_t((high - low) / m.dx + 1e-9)); };
+  m.nx = cells(h.low[0], h.high[0]);
+  m.x0 = h.low[0] + 0.5 * m.dx;
+  m.ny = h.dimension == 3 ? cells(h.low[1], h.high[1]) : 1;
+  m.y0 = h.dimension == 3 ? h.low[1] + 0.5 * m.dx : 0;
+  return m;
+}
+
+class Runner {
+ public:
+  Runner(const Case& c, const ParticleData& data, const RunOptions& options)
+      : case_(c), header_(data.header), options_(options), model_(make_model(c, data)), map_(make_map(c, data.header)) {
+    const double frames = c.output.frame_interval;
+    surface_interval_ = c.output.surface_interval > 0 ? c.output.surface_interval : frames / 10;
+    per_frame_ = std::max<int64_t>(1, std::llround(frames / surface_interval_));
+    surface_interval_ = frames / double(per_frame_);
+    arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
+    identity_ = identity(data);
+    initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
+    simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
+    log("model: " + simulation_->description());
+    describe();
+    for (const std::string& line : simulation_->left_out()) log("left out: " + line);
+  }
+
+  std::string run() {
+    SignalGuard guard;
+    start_ = Clock::now();
+    if (options_.resume) {
+      resume();
+    } else {
+      open();
+      settle();
+      record();
+    }
+    const int64_t last = std::max<int64_t>(1, std::llround(case_.output.end_time / surface_interval_));
+    const auto loop_start = Clock::now();
+    const int64_t first_step = simulation_->state().step;
+    double checkpoint_at = elapsed() + case_.output.checkpoint_interval;
+    while (outputs_ <= last) {
+      const double target = double(outputs_) * surface_interval_;
+      StepState st = simulation_->state();
+      while (st.time < target) {
+        st = simulation_->advance(target, 25);
+        check(st);
+        if (caught_signal) {
+          checkpoint();
+          throw Interrupted{caught_signal};
+        }
+        progress(st, first_step, loop_start);
+        if (elapsed() > checkpoint_at) {
+          checkpoint();
+          checkpoint_at = elapsed() + case_.output.checkpoint_interval;
+        }
+      }
+      record();
+    }
+    return finish();
+  }
+
+ private:
+  void log(const std::string& line) const {
+    if (options_.log) options_.log(line);
+  }
+  double elapsed() const { return earlier_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  /// What must not change between a run and its resumption.
+  std::string identity(const ParticleData& data) const {
+    const auto hash = [](const auto& v) {
+      return sha256_of_text(std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v[0])));
+    };
+    std::ostringstream s;
+    s << case_.text << '\n' << int(case_.numerics.precision) << hash(data.water.points) << hash(data.water.pressure)
+      << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points) << hash(data.wall.volume);
+    return sha256_of_text(s.str());
+  }
+
+  void describe() const {
+    std::ostringstream s;
+    s.precision(4);
+    const StepState st = simulation_->state();
+    s << "particles: " << header_.counts.water << " water, " << header_.counts.soil << " soil, " << header_.counts.wall
+      << " wall (" << header_.counts.wall_left_out << " wall particles left out); " << simulation_->bytes() / double(1 << 20)
+      << " MiB; ";
+    if (header_.counts.water) s << "water c " << model_.sound_speed << " m/s; ";
+    if (header_.counts.soil)
+      s << "soil c " << SoilMaterial<double>::wave_speed(model_.young_modulus, model_.poisson_ratio, model_.soil_density)
+        << " m/s, alpha " << model_.soil_alpha << "; ";
+    s << "first time step " << st.dt << " s, limited by the " << limit_name(st.limit) << " condition";
+    log(s.str());
+  }
+
+  void open() {
+    RunHeader h;
+    h.particles = header_;
+    h.particles.case_text = case_.text;
+    h.particles.provenance = options_.provenance ? options_.provenance_json : "{}";
+    h.particle_volume = std::pow(header_.dp, header_.dimension);
+    h.left_out = nlohmann::json(simulation_->left_out()).dump();
+    h.map = map_;
+    h.initial_soil = initial_soil_;
+    writer_ = std::make_unique<RunWriter>(partial_path(options_.output), h);
+  }
+
+  /// Lets the water find its place beside walls and soil before t = 0, damped, with the soil held.
+  void settle() {
+    const double duration = case_.numerics.settle_time;
+    if (!(duration > 0) || !header_.counts.water) return;
+    simulation_->settle(true);
+    StepState st = simulation_->state();
+    while (st.time < duration) {
+      st = simulation_->advance(duration, 25);
+      check(st);
+      if (caught_signal) throw Interrupted{caught_signal};
+      if (options_.progress) options_.progress(0, "settling, " + std::to_string(st.time).substr(0, 5) + " s");
+    }
+    ParticleState s;
+    simulation_->download(s);
+    const auto rows = diagnose(model_, s, st, header_.bed);
+    std::ostringstream line;
+    line << "settled for " << duration << " s in " << st.step << " steps";
+    for (const auto& [name, value] : rows)
+      if (name == "max_water_speed") line << "; fastest water before the start " << value << " m/s";
+    log(line.str());
+    simulation_->settle(false);
+  }
+
+  void check(const StepState& st) const {
+    const bool water = st.failed_water != UINT32_MAX;
+    if (!water && st.failed_soil == UINT32_MAX) return;
+    ParticleState s;
+    simulation_->download(s);
+    const uint32_t id = water ? st.failed_water : st.failed_soil;
+    const auto& x = water ? s.water_x : s.soil_x;
+    const auto& v = water ? s.water_v : s.soil_v;
+    std::ostringstream what, why, then;
+    what << "the run diverged at t = " << st.time << " s, step " << st.step;
+    why << (water ? "water" : "soil") << " particle " << id << " at x " << x[3 * id] + header_.origin[0] << ", y "
+        << x[3 * id + 1] + header_.origin[1] << ", z " << x[3 * id + 2] + header_.origin[2] << " has velocity ("
+        << v[3 * id] << ", " << v[3 * id + 1] << ", " << v[3 * id + 2] << ") m/s";
+    if (water) why << " and density " << model_.water_density + s.water_excess[id] << " kg/m3";
+    why << ": not finite or out of range";
+    if (fs::exists(checkpoint_path(options_.output)))
+      then << "the last good state is " << checkpoint_path(options_.output) << "; ";
+    then << "frames up to the failure are in " << partial_path(options_.output)
+         << "; try a smaller numerics.cfl or a larger water.sound_speed";
+    throw WorkError(what.str(), why.str(), then.str());
+  }
+
+  void progress(const StepState& st, int64_t first_step, Clock::time_point since) const {
+    if (!options_.progress) return;
+    const double seconds = std::chrono::duration<double>(Clock::now() - since).count();
+    char note[160];
+    std::snprintf(note, sizeof note, "t %.2f s, dt %.3g s (%s), %.2f M particle-steps/s", st.time, st.dt, limit_name(st.limit),
+                  seconds > 0 ? double(st.step - first_step) * double(header_.counts.total()) / seconds / 1e6 : 0.0);
+    options_.progress(std::min(1.0, st.time / case_.output.end_time), note);
+  }
+
+  /// Surface rasters, maxima and diagnostics of the present state, and every so often a frame.
+  void record() {
+    ParticleState s;
+    simulation_->download(s);
+    const StepState st = simulation_->state();
+    Frame frame;
+    frame.time = st.time;
+    frame.points.assign(s.water_x.begin(), s.water_x.end());
+    frame.points.insert(frame.points.end(), s.soil_x.begin(), s.soil_x.end());
+    frame.velocity = s.water_v;
+    frame.velocity.insert(frame.velocity.end(), s.soil_v.begin(), s.soil_v.end());
+    frame.lost = s.water_lost;
+    frame.lost.insert(frame.lost.end(), s.soil_lost.begin(), s.soil_lost.end());
+    const std::size_t nw = s.water_x.size() / 3, ns = s.soil_x.size() / 3;
+
+    ColumnParticles columns;
+    columns.dimension = header_.dimension, columns.dp = header_.dp, columns.h = 1.5 * header_.dp;
+    columns.n_water = nw, columns.n_soil = ns;
+    columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
+    for (int side = 0; side < 4; ++side) {
+      if (header_.sides[side] == Side::open || (side >= 2 && header_.dimension == 2)) continue;
+      (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] = side % 2 ? header_.high[side / 2] : header_.low[side / 2];
+    }
+    const ColumnSurfaces surfaces = column_surfaces(columns, map_, header_.bed);
+    writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil);
+    accumulate(surfaces, st.time, nw > 0, ns > 0);
+
+    const auto row = diagnose(model_, s, st, header_.bed);
+    writer_->add_diagnostics(st.time, row);
+    for (const auto& [name, value] : row)
+      if (name.compare(0, 4, "max_") == 0) extremes_[name] = std::max(extremes_[name], value);
+      else extremes_["last_" + name] = value;
+
+    if (outputs_ % per_frame_ == 0) {
+      if (nw) {
+        frame.pressure = s.water_pressure;
+        frame.pressure.resize(nw + ns, 0.f);
+      }
+      if (ns) {
+        frame.adps.assign(nw, 0.f);
+        frame.adps.insert(frame.adps.end(), s.soil_adps.begin(), s.soil_adps.end());
+      }
+      writer_->add_frame(frame);
+    }
+    ++outputs_;
+  }
+
+  void accumulate(const ColumnSurfaces& s, double time, bool water, bool soil) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto raise = [&](const std::string& name, const std::vector<float>& values) {
+      auto& to = maxima_[name];
+      if (to.empty()) to.assign(map_.size(), nan);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::isfinite(values[i]) && !(to[i] >= values[i])) to[i] = values[i];
+    };
+    if (water) {
+      if (initial_elevation_.empty()) initial_elevation_ = s.water;
+      raise("elevation", s.water), raise("depth", s.depth), raise("speed", s.speed);
+      auto& arrival = maxima_["arrival"];
+      if (arrival.empty()) arrival.assign(map_.size(), nan);
+      for (std::size_t i = 0; i < arrival.size(); ++i) {
+        if (std::isfinite(arrival[i]) || !std::isfinite(s.water[i])) continue;
+        const bool was_dry = !std::isfinite(initial_elevation_[i]);
+        if ((was_dry && s.depth[i] > arrival_threshold_) || std::fabs(s.water[i] - initial_elevation_[i]) > arrival_threshold_)
+          arrival[i] = float(time);
+      }
+    }
+    if (soil) raise("soil_speed", s.soil_speed);
+  }
+
+  void checkpoint() {
+    writer_->write_maxima(maxima_);
+    writer_->flush();
+    Checkpoint c;
+    c.identity = identity_;
+    c.outputs = outputs_, c.frames = writer_->frames(), c.surfaces = writer_->surfaces(), c.diagnostics = writer_->diagnostics();
+    c.wall_time = elapsed();
+    c.extremes = extremes_, c.maxima = maxima_, c.initial_elevation = initial_elevation_;
+    c.arrays = simulation_->save();
+    write_checkpoint(checkpoint_path(options_.output), c);
+  }
+
+  void resume() {
+    std::string note;
+    Checkpoint c = read_newest_checkpoint(checkpoint_path(options_.output), identity_, &note);
+    if (!note.empty()) log(note);
+    simulation_->restore(c.arrays);
+    outputs_ = c.outputs, earlier_ = c.wall_time;
+    extremes_ = std::move(c.extremes), maxima_ = std::move(c.maxima), initial_elevation_ = std::move(c.initial_elevation);
+    writer_ = std::make_unique<RunWriter>(RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
+    char line[120];
+    std::snprintf(line, sizeof line, "resumed at t = %.4f s, step %lld", simulation_->state().time,
+                  static_cast<long long>(simulation_->state().step));
+    log(line);
+  }
+
+  std::string finish() {
+    writer_->write_maxima(maxima_);
+    const StepState st = simulation_->state();
+    const double volume = std::pow(header_.dp, header_.dimension);
+    const double lost = volume * (st.lost_water * model_.water_density + st.lost_soil * model_.soil_density);
+    const double all = volume * (double(header_.counts.water) * model_.water_density +
+                                 double(header_.counts.soil) * model_.soil_density);
+    nlohmann::ordered_json j;
+    j["case"] = case_.name;
+    j["particles"] = {{"water", header_.counts.water}, {"soil", header_.counts.soil}, {"wall", header_.counts.wall},
+                      {"left_out", header_.counts.wall_left_out}};
+    j["steps"] = st.step;
+    j["end_time_s"] = st.time;
+    j["left_out"] = simulation_->left_out();
+    j["mass_error"] = all > 0 ? lost / all : 0.0;
+    j["density_error"] = extremes_["max_density_error"];
+    j["lost"] = {{"water", st.lost_water}, {"soil", st.lost_soil}};
+    j["below_bed"] = extremes_["last_below_bed"];
+    j["max_water_speed_m_s"] = extremes_["max_water_speed"];
+    if (header_.counts.soil) j["max_soil_speed_m_s"] = extremes_["max_soil_speed"];
+    j["model"] = simulation_->description();
+    j["bytes"] = simulation_->bytes();
+    const nlohmann::ordered_json reproducible = j;
+    // What differs from run to run: in the file only with provenance.
+    j["wall_time_s"] = elapsed();
+    j["particle_steps_per_s"] = elapsed() > 0 ? double(st.step) * double(header_.counts.total()) / elapsed() : 0.0;
+    j["threads"] = omp_get_max_threads();
+    for (const PhaseTime& t : simulation_->timings()) j["phase_seconds"][t.name] = t.seconds;
+    writer_->write_summary((options_.provenance ? j : reproducible).dump(1));
+    writer_->flush();
+    writer_->close();
+    writer_.reset();
+    std::error_code ec;
+    fs::rename(partial_path(options_.output), options_.output, ec);
+    if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial_path(options_.output));
+    fs::remove(checkpoint_path(options_.output), ec);
+    fs::remove(previous_checkpoint(checkpoint_path(options_.output)), ec);
+    return j.dump(1);
+  }
+
+  const Case& case_;
+  ParticleHeader header_;
+  RunOptions options_;
+  ModelParameters model_;
+  SurfaceMap map_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<RunWriter> writer_;
+  std::vector<float> initial_soil_, initial_elevation_;
+  std::map<std::string, std::vector<float>> maxima_;
+  std::map<std::string, double> extremes_;
+  std::string identity_;
+  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0;
+  int64_t per_frame_ = 1, outputs_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+std::string partial_path(const std::string& output) {
+  const fs::path p(output);
+  std::string name(".");
+  name.append(p.stem().string()).append(".partial").append(p.extension().string());
+  return (p.parent_path() / name).string();
+}
+std::string checkpoint_path(const std::string& output) { return output + ".checkpoint"; }
+
+std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s) {
+  const ModelParameters p = make_model(c, data);
+  double wave = p.sound_speed, alpha_c = p.water_alpha * p.sound_speed;
+  if (data.soil.size()) {
+    const double soil = SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density);
+    wave = std::max(wave, soil), alpha_c = std::max(alpha_c, p.soil_alpha * soil);
+  }
+  // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
+  const double dt = p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30));
+  const double steps = (c.output.end_time + c.numerics.settle_time) / dt;
+  nlohmann::ordered_json j;
+  j["case"] = c.name;
+  j["particles"] = {{"water", data.header.counts.water}, {"soil", data.header.counts.soil},
+                    {"wall", data.header.counts.wall}, {"left_out", data.header.counts.wall_left_out}};
+  j["time_step_s"] = dt;
+  j["steps"] = std::llround(steps);
+  j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;
+  j["particle_steps_per_s_assumed"] = particle_steps_per_s;
+  return j.dump(1);
+}
+
+std::string run_case(const Case& c, const ParticleData& data, const RunOptions& options) {
+  Runner runner(c, data, options);
+  return runner.run();
+}
+
+}  // namespace lgiw

@@ -1,0 +1,36 @@
+// A run from start to end: outputs, maxima, diagnostics, checkpoints, and what to do when something goes wrong.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "case/case.hh"
+#include "files/particle_file.hh"
+
+namespace lgiw {
+
+struct RunOptions {
+  std::string output;             // final name of the run file
+  bool overwrite = false, resume = false, provenance = true;
+  std::string provenance_json;    // of this run
+  std::function<void(double, const std::string&)> progress;  // fraction done, note
+  std::function<void(const std::string&)> log;               // one line
+};
+
+/// What a run would cost: counts, memory, time step, steps, seconds at `particle_steps_per_s`.
+std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s);
+
+/// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is complete;
+/// checkpoints lie beside it as OUTPUT.checkpoint. Returns the summary as JSON. SIGINT and SIGTERM end the step, write a
+/// checkpoint and throw Interrupted. A particle in a state that is not finite or out of range throws WorkError with its
+/// place and the last good checkpoint.
+std::string run_case(const Case& c, const ParticleData& data, const RunOptions& options);
+
+struct Interrupted {
+  int signal;
+};
+
+std::string partial_path(const std::string& output);
+std::string checkpoint_path(const std::string& output);
+
+}  // namespace lgiw

@@ -1,0 +1,134 @@
+// lgiw-run: particles -> run. The simulation itself is in lib/solver.
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "base/atomic_file.hh"
+#include "base/error.hh"
+#include "base/tool_main.hh"
+#include "files/run_file.hh"
+#include "solver/runner.hh"
+#include "solver/simulation.hh"
+
+namespace {
+
+using namespace lgiw;
+
+struct Options {
+  std::string particles, output, case_file, summary, diagnostics, xmf;
+  std::vector<std::string> overrides;
+  std::string backend;
+  int threads = 0;
+  bool resume = false, dry_run = false;
+  double rate = 0;
+  CommonOptions common;
+};
+
+/// Measured on two cores, particle-steps per second (docs/performance.md); what --dry-run assumes.
+double assumed_rate(int dimension) { return (dimension == 2 ? 3.0e6 : 0.9e6) * omp_get_max_threads(); }
+
+void write_diagnostics(const std::string& run, const std::string& path, bool overwrite) {
+  const auto columns = RunReader(run).diagnostics();
+  std::string text = "time";
+  std::size_t rows = 0;
+  for (const auto& [name, values] : columns) {
+    if (name != "time") text += "," + name;
+    rows = std::max(rows, values.size());
+  }
+  text += "\n";
+  char number[40];
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::snprintf(number, sizeof number, "%.9g", columns.at("time")[i]);
+    text += number;
+    for (const auto& [name, values] : columns) {
+      if (name == "time") continue;
+      std::snprintf(number, sizeof number, ",%.9g", values[i]);
+      text += number;
+    }
+    text += "\n";
+  }
+  if (path == "-") std::cout << text;
+  else write_text_file(path, text, overwrite);
+}
+
+void refuse_existing(const std::string& path, bool overwrite) {
+  LGIW_VALIDATE(path.empty() || path == "-" || overwrite || !std::filesystem::exists(path), path + " exists",
+                "it would be overwritten", "use -O to overwrite it or name another file");
+}
+
+int run(const Options& o, int argc, char** argv) {
+  LGIW_VALIDATE(o.dry_run || !o.output.empty(), "no output file is named", "the run has to go somewhere", "use -o RUN.h5");
+  for (const std::string& path : {o.output, o.summary, o.diagnostics, o.xmf}) refuse_existing(path, o.common.overwrite);
+  if (!o.output.empty()) {
+    LGIW_VALIDATE(o.output != "-", "a run cannot go to standard output", "HDF5 files need a seekable file", "use -o RUN.h5");
+    AtomicFile probe(o.output, true);   // refuses a folder that cannot be written, before any work
+  }
+  if (o.threads > 0) omp_set_num_threads(o.threads);
+  const ParticleData data = read_particles(o.particles);
+  std::vector<std::string> overrides = o.overrides;
+  if (!o.backend.empty()) overrides.push_back("numerics.backend=" + o.backend);
+  const Case c = o.case_file.empty() ? parse_case(data.header.case_text, o.particles + " (case)", overrides)
+                                     : read_case(o.case_file, overrides);
+  LGIW_VALIDATE(c.dimension == data.header.dimension && c.dp == data.header.dp,
+                "the case does not fit " + o.particles, "its dimension or particle spacing is another",
+                "make the particles again with dem2particles");
+  LGIW_VALIDATE(data.header.counts.water + data.header.counts.soil > 0, o.particles + " holds nothing that moves",
+                "it has neither water nor soil particles", "check water.level, water.seed and slide of the case");
+  if (o.threads == 0 && c.numerics.threads > 0) omp_set_num_threads(c.numerics.threads);
+  if (o.dry_run) {
+    std::cout << plan_json(c, data, o.rate > 0 ? o.rate : assumed_rate(c.dimension)) << "\n";
+    return 0;
+  }
+
+  Provenance provenance{"lgiw-run", version_string(), command_line(argc, argv), {}, o.common.provenance};
+  provenance.add_input(o.particles);
+  if (!o.case_file.empty() && o.case_file != "-") provenance.add_input(o.case_file);
+  Progress progress(o.common.show_progress(), "lgiw-run");
+  RunOptions options;
+  options.output = o.output;
+  options.overwrite = o.common.overwrite, options.resume = o.resume, options.provenance = o.common.provenance;
+  options.provenance_json = provenance.to_json();
+  options.progress = [&](double fraction, const std::string& note) { progress.update(fraction, note); };
+  if (!o.common.quiet) options.log = [](const std::string& line) { std::fprintf(stderr, "lgiw-run: %s\n", line.c_str()); };
+  std::string summary;
+  try {
+    summary = run_case(c, data, options);
+  } catch (const Interrupted& i) {
+    if (!o.common.quiet)
+      std::fprintf(stderr, "lgiw-run: stopped by signal %d; the state is in %s: go on with --resume\n", i.signal,
+                   checkpoint_path(o.output).c_str());
+    return 128 + i.signal;
+  }
+  if (!o.summary.empty()) write_text_file(o.summary, summary + "\n", o.common.overwrite);
+  if (!o.diagnostics.empty()) write_diagnostics(o.output, o.diagnostics, o.common.overwrite);
+  if (!o.xmf.empty()) write_xdmf(o.output, o.xmf, o.common.overwrite);
+  if (o.common.json) std::cout << summary << "\n";
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs the soil-water SPH simulation of a particles file and writes frames, surfaces, maxima and diagnostics.",
+               "lgiw-run");
+  Options o;
+  app.add_option("PARTICLES", o.particles, "particles file of dem2particles")->required();
+  app.add_option("-o,--output", o.output, "run file to write (VTKHDF)");
+  app.add_option("--case", o.case_file, "case file in place of the one inside PARTICLES (same dimension and spacing)");
+  app.add_option("--set", o.overrides, "KEY=VALUE: overrides a key of the case, e.g. --set soil.friction_angle=25");
+  app.add_option("--backend", o.backend, "auto, cpu or cuda")->check(CLI::IsMember({"auto", "cpu", "cuda"}));
+  app.add_option("--threads", o.threads, "OpenMP threads; 0: all")->check(CLI::Range(0, 1024));
+  app.add_flag("--resume", o.resume, "go on from the checkpoint beside the output");
+  app.add_flag("--dry-run", o.dry_run, "print particle counts, time step, steps and run time as JSON; start nothing");
+  app.add_option("--rate", o.rate, "particle-steps per second that --dry-run assumes")->check(CLI::PositiveNumber);
+  app.add_option("--summary", o.summary, "write the summary (JSON) there");
+  app.add_option("--diagnostics", o.diagnostics, "write the diagnostics table (CSV) there; - is standard output");
+  app.add_option("--xmf", o.xmf, "write an Xdmf sidecar for ParaView before 5.12");
+  std::string cuda;
+  add_common_options(app, o.common, std::string("CUDA backend: ") + (cuda_available(&cuda) ? "yes" : cuda));
+  app.footer("Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv");
+  return tool_main(app, argc, argv, [&] { return run(o, argc, argv); });
+}
