@@ -62,12 +62,9 @@ std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 Handle access_properties(bool writing) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_fclose_degree(list.id(), H5F_CLOSE_STRONG);
-  if (!writing) {
-    H5Pset_file_locking(list.id(), false, true);
-    return list;
-  }
-  H5Pset_file_locking(list.id(), true, true);
+  // No lock, for writers either: HDF5 refuses to open a file twice in one process with different ideas of locking.
+  H5Pset_file_locking(list.id(), false, true);
+  if (!writing) return list;
   H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   // Aggregated blocks are given back at each flush, which would make the layout depend on when that happens.
   H5Pset_meta_block_size(list.id(), 0);

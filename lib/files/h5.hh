@@ -47,7 +47,7 @@ using Shape = std::vector<hsize_t>;
 class File {
  public:
   static File create(const std::string& path);
-  /// Takes no lock: a file that another process is still writing can be read as of its last flush.
+  /// Files are not locked: one that another process is still writing can be read as of its last flush.
   static File open_read(const std::string& path);
   static File open_write(const std::string& path);  // read and write an existing file
 

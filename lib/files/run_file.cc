@@ -72,7 +72,7 @@ std::vector<double> read_times(const h5::File& file, const std::string& name, in
 
 int64_t read_count(const h5::File& file, const std::string& object, const std::string& name) {
   const double value = file.number_attribute(object, name);
-  if (!(value >= 0 && value <= 1e15 && value == std::floor(value)))
+  if (!(value >= 0 && value <= 1e12 && value == std::floor(value)))
     refuse(file, object + "@" + name, std::to_string(value) + " is not a count");
   return int64_t(value);
 }
@@ -301,17 +301,17 @@ RunReader::RunReader(const std::string& path) : file_(h5::File::open_read(path))
                  " where /lgiw@Counts says " + std::to_string(int(wanted)));
   }
 
-  const auto require_rows = [&](const std::string& name, int64_t rows, int width) {
+  const auto require_rows = [&](const std::string& name, int64_t rows, int64_t width) {
     const h5::Shape shape = file_.shape(name);
     if (shape.empty() || shape[0] / hsize_t(width) < hsize_t(rows))
-      refuse(file_, name, "it is shorter than the " + std::to_string(rows) + " steps that are counted");
+      refuse(file_, name, "it is shorter than the " + std::to_string(rows) + " rows that are counted");
   };
   const int64_t n_frames = read_count(file_, steps, "NSteps");
   times_ = read_times(file_, steps + "/Values", n_frames);
   for (const Field& field : frame_fields(counts))
-    if (field.present) require_rows(point_data + field.name, n_frames, int(n));
-  require_rows("/VTKHDF/Points", n_frames, int(n));
-  require_rows(point_data + "Lost", n_frames, int(n));
+    if (field.present) require_rows(point_data + field.name, n_frames, n);
+  require_rows("/VTKHDF/Points", n_frames, n);
+  require_rows(point_data + "Lost", n_frames, n);
 
   SurfaceMap& map = header_.map;
   map.x0 = file_.number_attribute("/lgiw/surface", "x0");
@@ -351,6 +351,9 @@ Frame RunReader::frame(std::size_t k) const {
   if (counts.water > 0) frame.pressure = read_finite_rows<float>(file_, point_data + "Pressure", start, n, 1);
   if (counts.soil > 0) frame.adps = read_finite_rows<float>(file_, point_data + "Adps", start, n, 1);
   frame.lost = read_finite_rows<uint8_t>(file_, point_data + "Lost", start, n, 1);
+  for (std::size_t row = 0; row < frame.lost.size(); ++row)
+    if (frame.lost[row] > 1)
+      refuse(file_, point_data + "Lost", "that of row " + std::to_string(start + int64_t(row)) + " is neither 0 nor 1");
   return frame;
 }
 

@@ -52,7 +52,7 @@ std::array<double, 3> read_vector(const h5::File& file, const std::string& name)
 
 /// A whole number from 0 to the largest count that a file could hold.
 int64_t count_of(const h5::File& file, const std::string& name, double value) {
-  if (!(value >= 0 && value <= 1e15 && value == std::floor(value)))
+  if (!(value >= 0 && value <= 1e12 && value == std::floor(value)))
     refuse(file, "/lgiw@" + name, std::to_string(value) + " is not a count");
   return int64_t(value);
 }
@@ -208,7 +208,7 @@ std::vector<T> read_finite_rows(const h5::File& file, const std::string& name, i
     file.read_slab(name, values.data(), {hsize_t(start), 0}, {hsize_t(n), hsize_t(width)});
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(double(values[k])))
-      refuse(file, name, "the value of particle " + std::to_string(start + int64_t(k) / width) + " is not finite");
+      refuse(file, name, "the value of row " + std::to_string(start + int64_t(k) / width) + " is not finite");
   return values;
 }
 
