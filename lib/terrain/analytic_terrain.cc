@@ -58,7 +58,8 @@ TerrainModel build_analytic_terrain(const Case& c) {
                 "name its ends and kinks");
   for (std::size_t k = 1; k < profile.size(); ++k)
     LGIW_VALIDATE(profile[k][0] > profile[k - 1][0],
-                  text("terrain.profile: x does not increase at point %zu (x = %g)", k + 1, profile[k][0]),
+                  at_key(c, "terrain.profile") +
+                      text("terrain.profile: x does not increase at point %zu (x = %g)", k + 1, profile[k][0]),
                   text("the point before lies at x = %g, and the bed has one height at each x", profile[k - 1][0]),
                   "order the points by x; side walls need no points, and steep steps take a small difference in x");
   const bool three = c.dimension == 3;
@@ -67,7 +68,7 @@ TerrainModel build_analytic_terrain(const Case& c) {
   const double length = profile.back()[0] - profile.front()[0], limit = std::min(0.5 * c.dp, length);
   const double across = three ? std::ceil(c.terrain.width / limit) : 1;
   LGIW_VALIDATE(length / limit * across < 4e7, text("the scene has %.3g terrain nodes", length / limit * across),
-                "their spacing is half of dp", "choose a larger dp");
+                "their spacing is half of particle_spacing", "choose a larger one");
 
   TerrainModel model;
   HeightField& ground = model.ground;
@@ -90,15 +91,16 @@ TerrainModel build_analytic_terrain(const Case& c) {
     return model;
   }
   const double level = c.water.level, lowest = *std::min_element(row.begin(), row.end());
-  LGIW_VALIDATE(level > lowest, text("water.level %g m is below the whole terrain", level),
+  LGIW_VALIDATE(level > lowest, at_key(c, "water.level") + text("water.level %g m is below the whole terrain", level),
                 text("its lowest place is at %g m", lowest), "raise the level");
   for (std::size_t k = 0; k < model.wet.size(); ++k) model.wet[k] = ground.z[k] < level;
   if (c.water.seed) {
     const double x = (*c.water.seed)[0];
-    LGIW_VALIDATE(x >= ground.x0 && x <= ground.x_max(), text("water.seed: x = %g lies outside the domain", x),
+    LGIW_VALIDATE(x >= ground.x0 && x <= ground.x_max(),
+                  at_key(c, "water.seed") + text("water.seed: x = %g lies outside the domain", x),
                   text("terrain.profile runs from x = %g to %g", ground.x0, ground.x_max()), "move it into the water");
     const auto i = std::size_t(std::llround((x - ground.x0) / ground.dx));
-    LGIW_VALIDATE(model.wet[i], text("water.seed: x = %g is on dry land", x),
+    LGIW_VALIDATE(model.wet[i], at_key(c, "water.seed") + text("water.seed: x = %g is on dry land", x),
                   text("the ground there is at %g m, the level at %g m", ground.at(i, 0), level),
                   "move it into the water");
     std::vector<uint8_t> seeds(model.wet.size(), 0);
@@ -107,12 +109,13 @@ TerrainModel build_analytic_terrain(const Case& c) {
   }
   for (const auto& [side, name, index] :
        {std::tuple{c.terrain.west, "west", std::size_t(0)}, std::tuple{c.terrain.east, "east", ground.nx - 1}})
-    LGIW_VALIDATE(side != Side::open || !model.wet[index], text("terrain.%s is open, but the water reaches it", name),
+    LGIW_VALIDATE(side != Side::open || !model.wet[index],
+                  at_key(c, "terrain.sides") + text("terrain.sides.%s is open, but the water reaches it", name),
                   text("it is %g m deep there and would run out", level - ground.at(index, 0)),
                   "make that side wall or absorbing");
 
   LGIW_VALIDATE(!three || (c.terrain.south != Side::open && c.terrain.north != Side::open),
-                "terrain.south or terrain.north is open, but the water reaches it",
+                at_key(c, "terrain.sides") + "terrain.sides: south or north is open, but the water reaches it",
                 "an analytic scene is the same for all y and would run out", "make them wall or absorbing");
 
   // Exact between nodes, which lie on the kinks where they can: each wetted piece of the bed is a trapezium or a

@@ -26,9 +26,10 @@ struct Mosaic {
 Mosaic open_sources(const Case& c, TerrainModel& model, Provenance& provenance) {
   Mosaic mosaic;
   for (const TerrainSource& source : c.terrain.sources)
-    mosaic.sources.emplace_back(c.resolve(source.file), "terrain source '" + source.file + "'", provenance);
-  mosaic.crs = c.terrain.crs.empty() ? case_crs_from_source(mosaic.sources[0])
-                                     : case_crs_from_text(c.terrain.crs, mosaic.sources[0]);
+    mosaic.sources.emplace_back(c.resolve(source.file),
+                                at_key(c, "terrain.sources") + "terrain source '" + source.file + "'", provenance);
+  mosaic.crs =
+      c.terrain.crs.empty() ? case_crs_from_source(mosaic.sources[0]) : case_crs_from_text(c, mosaic.sources[0]);
   for (RasterSource& source : mosaic.sources) {
     if (!source.has_crs() && c.terrain.crs.empty()) case_crs_from_source(source);  // throws: only named CRS are assumed
     if (source.place(mosaic.crs))
@@ -53,15 +54,17 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
   Extent window = common;
   if (c.terrain.window) {
     window = *c.terrain.window;
-    LGIW_VALIDATE(window[0] < window[2] && window[1] < window[3], "terrain.window is empty", describe(window),
+    LGIW_VALIDATE(window[0] < window[2] && window[1] < window[3],
+                  at_key(c, "terrain.window") + "terrain.window is empty", describe(window),
                   "give it as [x_min, y_min, x_max, y_max]");
     const double slack = 1e-6 * pixel;
     LGIW_VALIDATE(window[0] >= all[0] - slack && window[1] >= all[1] - slack && window[2] <= all[2] + slack &&
                       window[3] <= all[3] + slack,
-                  "terrain.window reaches outside the terrain sources",
+                  at_key(c, "terrain.window") + "terrain.window reaches outside the terrain sources",
                   "it is " + describe(window) + "; they cover " + describe(all), "cut the window or add a source");
   } else {
-    LGIW_VALIDATE(window[0] < window[2] && window[1] < window[3], "the terrain sources have no common extent",
+    LGIW_VALIDATE(window[0] < window[2] && window[1] < window[3],
+                  at_key(c, "terrain.window") + "the terrain sources have no common extent",
                   "together they cover " + describe(all), "set terrain.window or check their CRS");
   }
   // A reprojected or turned source leaves no cells to keep: the window's corner is as good a start as any.
@@ -70,14 +73,15 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
   RasterGrid grid;
   for (double factor = 1;; ++factor) {
     grid.dx = factor * pixel;
-    const double shift = 0.5 * (factor - 1) * pixel;  // nodes in the middle of factor x factor cells
     double first[2], count[2];
     for (int k = 0; k < 2; ++k) {
-      const double start = anchor[k] + shift;
-      first[k] = start + std::ceil((window[k] - start) / grid.dx - 1e-6) * grid.dx;
-      count[k] = std::floor((window[k + 2] - first[k]) / grid.dx + 1e-6) + 1;
+      const double start = anchor[k] + std::ceil((window[k] - anchor[k]) / pixel - 1e-6) * pixel;
+      const double fine = std::floor((window[k + 2] - start) / pixel + 1e-6) + 1;
+      first[k] = start + 0.5 * (factor - 1) * pixel;  // in the middle of factor x factor cells
+      count[k] = std::floor(fine / factor);
     }
-    LGIW_VALIDATE(count[0] >= 3 && count[1] >= 3, "the terrain has fewer than 3 x 3 nodes",
+    LGIW_VALIDATE(count[0] >= 3 && count[1] >= 3,
+                  at_key(c, "terrain.window") + "the terrain has fewer than 3 x 3 nodes",
                   describe(window) + text(" at a spacing of %g m", grid.dx), "enlarge terrain.window");
     if (count[0] * count[1] <= double(max_cells)) {
       grid.nx = std::size_t(count[0]), grid.ny = std::size_t(count[1]);
@@ -86,11 +90,12 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
         model.notes.push_back(text("terrain: cells of %g m averaged to %g m while reading", pixel, grid.dx));
       return grid;
     }
-    LGIW_VALIDATE(
-        (factor + 1) * pixel <= c.dp,
-        text("the terrain window has %.4g x %.4g cells of %g m", count[0], count[1], grid.dx),
-        text("more than %lld do not fit into memory, and dp is %g m", static_cast<long long>(max_cells), c.dp),
-        "cut it with terrain.window or choose a larger dp");
+    LGIW_VALIDATE((factor + 1) * pixel <= c.dp,
+                  at_key(c, "terrain.window") +
+                      text("the terrain window has %.4g x %.4g cells of %g m", count[0], count[1], grid.dx),
+                  text("more than %lld do not fit into memory, and particle_spacing is %g m",
+                       static_cast<long long>(max_cells), c.dp),
+                  "cut it with terrain.window or choose a larger particle_spacing");
     // Straight to the factor that the numbers ask for, and no further than dp allows.
     const double wanted = std::floor(factor * std::sqrt(count[0] * count[1] / double(max_cells)));
     factor = std::max(factor, std::min(wanted, std::floor(c.dp / pixel)) - 1);
@@ -151,7 +156,8 @@ void handle_voids(const Case& c, const RasterGrid& grid, std::vector<double>& z,
     edge[k] = missing[k] && (i == 0 || j == 0 || i + 1 == grid.nx || j + 1 == grid.ny);
   }
   if (count == 0) return;
-  LGIW_VALIDATE(count < int64_t(z.size()), "the terrain window holds no elevations at all",
+  LGIW_VALIDATE(count < int64_t(z.size()),
+                at_key(c, "terrain.window") + "the terrain window holds no elevations at all",
                 text("all of its %lld cells are no-data or NaN", static_cast<long long>(count)),
                 "move terrain.window or check the source");
   const std::vector<uint8_t> border = connected_to(edge, missing, grid.nx, grid.ny, 8);
@@ -171,15 +177,18 @@ void handle_voids(const Case& c, const RasterGrid& grid, std::vector<double>& z,
           return text("the first at %.8g, %.8g", grid.x0 + double(i) * grid.dx, grid.y0 + double(j) * grid.dx);
     return std::string();
   };
-  LGIW_VALIDATE(border_count > 0, text("the terrain window has %lld void cells", static_cast<long long>(holes)),
-                first(false), "fill them with terrain.voids: fill, or add a source below");
+  LGIW_VALIDATE(
+      border_count > 0,
+      at_key(c, "terrain.window") + text("the terrain window has %lld void cells", static_cast<long long>(holes)),
+      first(false), "fill them with terrain.voids: fill, or add a source below");
   const CellRange r = largest_valid_range(z, grid.nx, grid.ny);
   const int digits = std::max(0, 1 - int(std::floor(std::log10(grid.dx))));
   // A third of a cell wide of the outermost centres, so that the numbers as printed choose exactly these cells.
   const double margin = grid.dx / 3;
   throw InputError(
-      text("the terrain window touches the no-data border of the sources (%lld cells there, %lld voids inside)",
-           static_cast<long long>(border_count), static_cast<long long>(holes)),
+      at_key(c, "terrain.window") +
+          text("the terrain window touches the no-data border of the sources (%lld cells there, %lld voids inside)",
+               static_cast<long long>(border_count), static_cast<long long>(holes)),
       first(true),
       text("set terrain.window to the largest one without, [%.*f, %.*f, %.*f, %.*f], or terrain.voids: fill", digits,
            grid.x0 + double(r.i0) * grid.dx - margin, digits, grid.y0 + double(r.j0) * grid.dx - margin, digits,
@@ -221,7 +230,7 @@ TerrainModel build_raster_terrain(const Case& c, Provenance& provenance) {
   std::vector<uint8_t> wet(cells.size(), 0);
   if (c.water.present) {
     model.still_water_level = c.water.level;
-    Reservoir reservoir = fill_reservoir(ground, c.water, c.terrain);
+    Reservoir reservoir = fill_reservoir(ground, c);
     model.reservoir_area = reservoir.area;
     model.reservoir_volume = reservoir.volume;
     model.max_water_depth = reservoir.max_depth;
@@ -229,8 +238,8 @@ TerrainModel build_raster_terrain(const Case& c, Provenance& provenance) {
   }
   SlideBody slide;
   if (c.slide.present) {
-    LGIW_VALIDATE(c.slide.bodies.empty(), "slide.bodies with terrain.sources",
-                  "bodies in (x, z) belong to terrain.profile", "give slide.polygon and slide.surface");
+    LGIW_VALIDATE(c.slide.bodies.empty(), at_key(c, "slide.bodies") + "slide.bodies with terrain.sources",
+                  "bodies in (x, z) belong to terrain.profile", "give slide.polygon and a failure surface");
     slide = make_slide(c, ground, mosaic.crs, provenance, model.notes);
     model.slide_volume = slide.volume;
   } else {
@@ -249,9 +258,11 @@ TerrainModel build_raster_terrain(const Case& c, Provenance& provenance) {
   } else {
     const double middle = 0.5 * double(k - 1) * cells.dx;
     const RasterGrid nodes(cells.nx / k, cells.ny / k, cells.x0 + middle, cells.y0 + middle, double(k) * cells.dx);
-    LGIW_VALIDATE(nodes.nx >= 3 && nodes.ny >= 3, text("the terrain has fewer than 3 x 3 nodes at dp = %g m", c.dp),
-                  text("the window is %g x %g m wide", double(cells.nx) * cells.dx, double(cells.ny) * cells.dx),
-                  "enlarge terrain.window or choose a smaller dp");
+    LGIW_VALIDATE(
+        nodes.nx >= 3 && nodes.ny >= 3,
+        at_key(c, "terrain.window") + text("the terrain has fewer than 3 x 3 nodes at particle_spacing %g m", c.dp),
+        text("the window is %g x %g m wide", double(cells.nx) * cells.dx, double(cells.ny) * cells.dx),
+        "enlarge terrain.window or choose a smaller particle_spacing");
     model.ground = local_field(nodes, block_means(ground.z, cells, nodes, k), model.origin);
     model.bed = local_field(nodes, block_means(slide.bed, cells, nodes, k), model.origin);
     const std::vector<double> wet_part = block_means(wet, cells, nodes, k);
@@ -269,7 +280,7 @@ TerrainModel build_raster_terrain(const Case& c, Provenance& provenance) {
 }  // namespace
 
 TerrainModel build_terrain(const Case& c, Provenance& provenance) {
-  LGIW_VALIDATE(c.dp > 0, "dp is not positive", text("it is %g", c.dp), "give the particle spacing in m");
+  LGIW_VALIDATE(c.dp > 0, "particle_spacing is not positive", text("it is %g", c.dp), "give the particle spacing in m");
   LGIW_VALIDATE(
       c.terrain.sources.empty() != c.terrain.profile.empty(),
       c.terrain.sources.empty() ? "the case has no terrain" : "the case has both terrain.sources and terrain.profile",

@@ -23,6 +23,11 @@ std::string text(const char* form, ...) {
   return result;
 }
 
+std::string at_key(const Case& c, const std::string& key) {
+  const std::string place = c.where(key);
+  return place.empty() ? "" : place + ": ";
+}
+
 QuietGdal::QuietGdal() {
   static std::once_flag registered;
   std::call_once(registered, GDALAllRegister);

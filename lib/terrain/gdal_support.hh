@@ -9,12 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "case/case.hh"
 #include "terrain/geo_output.hh"
 
 namespace lgiw::detail {
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* form, ...);
+
+/// "case.yaml:12: " for the start of a message about `key`; "" for a case that was not read from a file.
+std::string at_key(const Case& c, const std::string& key);
 
 /// While alive, GDAL keeps quiet on stderr; message() is its last complaint. Registers the drivers.
 class QuietGdal {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 
 #include "base/error.hh"
 
@@ -60,22 +61,23 @@ void require_metric(const OGRSpatialReference& crs, const std::string& problem_s
 Spikes find_spikes(std::vector<double>& values, int columns, int rows, double threshold, bool remove) {
   Spikes found;
   std::vector<std::pair<std::size_t, double>> replacements;
+  std::vector<double> neighbours;
   int64_t worst_index = 0;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const std::size_t index = std::size_t(row) * columns + column;
       const double z = values[index];
       if (std::isnan(z)) continue;
-      double neighbours[8];
-      int count = 0;
+      neighbours.clear();
       for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r)
         for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
           const double other = values[std::size_t(r) * columns + c];
-          if ((r != row || c != column) && !std::isnan(other)) neighbours[count++] = other;
+          if ((r != row || c != column) && !std::isnan(other)) neighbours.push_back(other);
         }
       // Beside a void or a corner too little is known to call a cell a spike.
+      const std::size_t count = neighbours.size();
       if (count < 3) continue;
-      std::sort(neighbours, neighbours + count);
+      std::sort(neighbours.begin(), neighbours.end());
       const double above = z - neighbours[count - 1], below = z - neighbours[0];
       const double excess = above > threshold ? above : below < -threshold ? below : 0;
       if (excess == 0) continue;
@@ -87,6 +89,29 @@ Spikes find_spikes(std::vector<double>& values, int columns, int rows, double th
     for (const auto& [index, z] : replacements) values[index] = z;
   found.x = double(worst_index % columns), found.y = double(worst_index / columns);
   return found;
+}
+
+/// Solves Laplace's equation in `voids` by successive over-relaxation.
+void relax(std::vector<double>& values, const RasterGrid& grid, const std::vector<std::size_t>& voids) {
+  const std::size_t nx = grid.nx, ny = grid.ny;
+  // As if all were one square hole; holes that are smaller converge no slower than that.
+  const double extent = std::sqrt(double(voids.size())) + 1;
+  const double factor = 2 / (1 + std::sin(std::numbers::pi / (2 * extent)));
+  for (int sweep = 0; sweep < 100 + 10 * int(extent); ++sweep) {
+    double largest = 0;
+    for (const std::size_t k : voids) {
+      const std::size_t i = k % nx, j = k / nx;
+      double sum = 0, count = 0;
+      if (i > 0) sum += values[k - 1], ++count;
+      if (i + 1 < nx) sum += values[k + 1], ++count;
+      if (j > 0) sum += values[k - nx], ++count;
+      if (j + 1 < ny) sum += values[k + nx], ++count;
+      const double change = factor * (sum / count - values[k]);
+      values[k] += change;
+      largest = std::max(largest, std::abs(change));
+    }
+    if (largest < 1e-4 * (2 - factor)) return;  // 0.1 mm
+  }
 }
 
 }  // namespace
@@ -353,6 +378,8 @@ std::vector<double> RasterSource::sample(const RasterGrid& grid, double spike_th
                                     "-ts",
                                     text("%zu", grid.nx),
                                     text("%zu", grid.ny)};
+  // Left alone, GDAL takes a turned source for a finer one and smooths it.
+  if (grid.dx < 1.5 * pixel_ * window.factor) words.insert(words.end(), {"-wo", "XSCALE=1", "-wo", "YSCALE=1"});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -372,14 +399,14 @@ std::vector<double> RasterSource::sample(const RasterGrid& grid, double spike_th
   return result;
 }
 
-OGRSpatialReference case_crs_from_text(const std::string& name, const RasterSource& first_source) {
+OGRSpatialReference case_crs_from_text(const Case& c, const RasterSource& first_source) {
+  const std::string what = at_key(c, "terrain.crs") + "terrain.crs '" + c.terrain.crs + "'";
   OGRSpatialReference crs;
-  LGIW_VALIDATE(crs.SetFromUserInput(name.c_str()) == OGRERR_NONE, "terrain.crs '" + name + "' is not a CRS",
+  LGIW_VALIDATE(crs.SetFromUserInput(c.terrain.crs.c_str()) == OGRERR_NONE, what + " is not a CRS",
                 QuietGdal::message(), "name one like EPSG:32611");
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   crs.StripVertical();
-  require_metric(crs, "terrain.crs '" + name + "'",
-                 first_source.has_crs() ? utm_zone(first_source.middle(), first_source.crs()) : "");
+  require_metric(crs, what, first_source.has_crs() ? utm_zone(first_source.middle(), first_source.crs()) : "");
   return crs;
 }
 
@@ -428,8 +455,10 @@ void fill_voids(std::vector<double>& values, const RasterGrid& grid) {
       CE_None)
     throw WorkError("cannot fill the voids of the terrain", QuietGdal::message(), "cut them off with terrain.window");
   relative = read_north_up<float>(*target, grid, GDT_Float32);
+  std::vector<std::size_t> voids;
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (!valid[k]) values[k] = datum + relative[k];
+    if (!valid[k]) values[k] = datum + relative[k], voids.push_back(k);
+  if (voids.size() <= 500'000) relax(values, grid, voids);
 }
 
 std::vector<float> distance_to_void(const std::vector<double>& values, const RasterGrid& grid, double limit) {

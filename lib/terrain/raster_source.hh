@@ -71,8 +71,8 @@ class RasterSource {
   Extent extent_{};
 };
 
-/// A CRS from `terrain.crs`. Throws InputError unless it is projected (or local) in metres.
-OGRSpatialReference case_crs_from_text(const std::string& name, const RasterSource& first_source);
+/// The CRS that `terrain.crs` names. Throws InputError unless it is projected (or local) in metres.
+OGRSpatialReference case_crs_from_text(const Case& c, const RasterSource& first_source);
 /// The CRS of the first source, for a case that names none.
 OGRSpatialReference case_crs_from_source(const RasterSource& source);
 
@@ -83,7 +83,9 @@ struct CellRange {
 };
 CellRange largest_valid_range(const std::vector<double>& values, std::size_t nx, std::size_t ny);
 
-/// Interpolates the NaN of `values` from their surroundings (GDALFillNodata: inverse distance weights, then smoothing).
+/// Interpolates the NaN of `values` from their surroundings: inverse distance weights (GDALFillNodata), then, for voids
+/// of up to half a million cells in all, relaxed to Laplace's equation, so that a plane comes out as a plane and a
+/// filled cell is neither a hill nor a hollow. The edge of the grid has no gradient across it.
 void fill_voids(std::vector<double>& values, const RasterGrid& grid);
 
 /// Distance, in cells, from each node to the nearest one where `values` is NaN, up to `limit`.

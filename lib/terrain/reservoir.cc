@@ -31,20 +31,22 @@ std::vector<uint8_t> connected_to(const std::vector<uint8_t>& seeds, const std::
   return reached;
 }
 
-Reservoir fill_reservoir(const HeightField& ground, const Water& water, const Terrain& sides) {
+Reservoir fill_reservoir(const HeightField& ground, const Case& c) {
+  const Water& water = c.water;
+  const Terrain& sides = c.terrain;
   const double level = water.level, dx = ground.dx;
   const auto [lowest, highest] = std::minmax_element(ground.z.begin(), ground.z.end());
-  LGIW_VALIDATE(level > *lowest, text("water.level %g m is below the whole terrain", level),
+  LGIW_VALIDATE(level > *lowest, at_key(c, "water.level") + text("water.level %g m is below the whole terrain", level),
                 text("its lowest place is at %g m", *lowest), "raise the level or check the vertical datum");
-  LGIW_VALIDATE(level < *highest, text("water.level %g m is above the whole terrain", level),
+  LGIW_VALIDATE(level < *highest, at_key(c, "water.level") + text("water.level %g m is above the whole terrain", level),
                 text("its highest place is at %g m, so the water has no shore", *highest),
                 "lower the level or check the vertical datum");
-  LGIW_VALIDATE(water.seed.has_value(), "water.seed is missing", "a terrain may hold several basins below the level",
-                "name a point in the reservoir");
+  LGIW_VALIDATE(water.seed.has_value(), at_key(c, "water") + "water.seed is missing",
+                "a terrain may hold several basins below the level", "name a point in the reservoir");
   const auto [x, y] = *water.seed;
   const double u = (x - ground.x0) / dx, v = (y - ground.y0) / dx;
   LGIW_VALIDATE(u >= -0.5 && v >= -0.5 && u <= double(ground.nx) - 0.5 && v <= double(ground.ny) - 0.5,
-                text("water.seed %.8g, %.8g lies outside the domain", x, y),
+                at_key(c, "water.seed") + text("water.seed %.8g, %.8g lies outside the domain", x, y),
                 text("it covers x %.8g to %.8g, y %.8g to %.8g", ground.x0, ground.x_max(), ground.y0, ground.y_max()),
                 "move the seed into the reservoir or enlarge terrain.window");
   const std::size_t i = std::min(ground.nx - 1, std::size_t(std::max(0.0, std::round(u))));
@@ -59,7 +61,7 @@ Reservoir fill_reservoir(const HeightField& ground, const Water& water, const Te
       const double d = std::hypot(double(k % ground.nx) - double(i), double(k / ground.nx) - double(j));
       if (d < distance) distance = d, nearest = k;
     }
-    throw InputError(text("water.seed %.8g, %.8g is on dry land", x, y),
+    throw InputError(at_key(c, "water.seed") + text("water.seed %.8g, %.8g is on dry land", x, y),
                      text("the ground there is at %g m, the level at %g m", ground.at(i, j), level),
                      text("the nearest place below the level is %.8g, %.8g (ground %g m, %.3g m away)",
                           ground.x0 + double(nearest % ground.nx) * dx, ground.y0 + double(nearest / ground.nx) * dx,
@@ -88,10 +90,12 @@ Reservoir fill_reservoir(const HeightField& ground, const Water& water, const Te
     if (edge.side != Side::open) continue;
     for (std::size_t n = 0; n < edge.count; ++n) {
       const std::size_t k = edge.first + n * edge.step;
-      LGIW_VALIDATE(!reservoir.wet[k], text("terrain.%s is open, but the reservoir reaches it", edge.name),
-                    text("at %.8g, %.8g it is %g m deep and would run out", ground.x0 + double(k % ground.nx) * dx,
-                         ground.y0 + double(k / ground.nx) * dx, level - ground.z[k]),
-                    "make that side wall or absorbing");
+      LGIW_VALIDATE(
+          !reservoir.wet[k],
+          at_key(c, "terrain.sides") + text("terrain.sides.%s is open, but the reservoir reaches it", edge.name),
+          text("at %.8g, %.8g it is %g m deep and would run out", ground.x0 + double(k % ground.nx) * dx,
+               ground.y0 + double(k / ground.nx) * dx, level - ground.z[k]),
+          "make that side wall or absorbing");
     }
   }
   return reservoir;

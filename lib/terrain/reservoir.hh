@@ -16,10 +16,11 @@ struct Reservoir {
   double max_depth = 0;      // m
 };
 
-/// Fills `ground` (case coordinates; cells around the nodes) from `water.seed` up to `water.level`: the cells below the
+/// Fills `ground` (case coordinates; cells around the nodes) from `water.seed` up to
+/// `water.level`: the cells below the
 /// level that are 4-connected to the seed's cell. The edge of the grid acts as a wall. Throws InputError for a seed
 /// outside or on dry land, a level below or above all terrain, and a reservoir that reaches a side that is open.
-Reservoir fill_reservoir(const HeightField& ground, const Water& water, const Terrain& sides);
+Reservoir fill_reservoir(const HeightField& ground, const Case& c);
 
 /// Nodes with `allowed` != 0 that are connected to a node with `seeds` != 0 (itself allowed or not) over `neighbours`
 /// (4 or 8) others.

@@ -29,7 +29,8 @@ struct Reader {
   std::vector<std::string>& notes;
 
   std::vector<double> raster(const std::string& file, const char* key, double void_value) const {
-    RasterSource source(c.resolve(file), text("slide.surface.%s '%s'", key, file.c_str()), provenance);
+    RasterSource source(c.resolve(file), at_key(c, text("slide.%s", key)) + text("slide.%s '%s'", key, file.c_str()),
+                        provenance);
     if (source.place(crs)) notes.push_back(source.what() + " names no CRS: taken to be in the case's");
     const Extent& e = source.extent();
     LGIW_VALIDATE(
@@ -48,10 +49,10 @@ struct Reader {
       ring->closeRings();
       auto polygon = std::make_unique<OGRPolygon>();
       polygon->addRingDirectly(ring.release());
-      LGIW_VALIDATE(c.slide.polygon.size() >= 3 && polygon->get_Area() > 0, "slide.polygon has no area",
+      LGIW_VALIDATE(c.slide.polygon.size() >= 3, at_key(c, "slide.polygon") + "slide.polygon has no area",
                     text("it has %zu points", c.slide.polygon.size()), "name at least three corners of the slide");
-      LGIW_VALIDATE(polygon->IsValid(), "slide.polygon crosses itself", QuietGdal::message(),
-                    "name its corners in order around the slide");
+      LGIW_VALIDATE(polygon->IsValid(), at_key(c, "slide.polygon") + "slide.polygon crosses itself",
+                    QuietGdal::message(), "name its corners in order around the slide");
       result.push_back(std::move(polygon));
     } else if (!c.slide.polygon_file.empty()) {
       read_polygon_file(result);
@@ -60,7 +61,7 @@ struct Reader {
   }
 
   void read_polygon_file(std::vector<Geometry>& result) const {
-    const std::string what = "slide.polygon_file '" + c.slide.polygon_file + "'",
+    const std::string what = at_key(c, "slide.polygon_file") + "slide.polygon_file '" + c.slide.polygon_file + "'",
                       path = c.resolve(c.slide.polygon_file);
     GDALDatasetUniquePtr data(
         GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
@@ -103,10 +104,12 @@ struct Reader {
                                 describe({ground.x0, ground.y0, ground.x_max(), ground.y_max()});
     LGIW_VALIDATE(
         all.MaxX > ground.x0 && all.MinX < ground.x_max() && all.MaxY > ground.y0 && all.MinY < ground.y_max(),
-        "the slide's polygon lies outside the domain", extents, "move it or enlarge terrain.window");
+        at_key(c, "slide") + "the slide's polygon lies outside the domain", extents,
+        "move it or enlarge terrain.window");
     LGIW_VALIDATE(
         all.MinX > ground.x0 && all.MaxX < ground.x_max() && all.MinY > ground.y0 && all.MaxY < ground.y_max(),
-        "the slide's polygon reaches across the edge of the domain", extents, "cut it or enlarge terrain.window");
+        at_key(c, "slide") + "the slide's polygon reaches across the edge of the domain", extents,
+        "cut it or enlarge terrain.window");
     const GDALDatasetUniquePtr mask = memory_raster(RasterGrid(ground), GDT_Byte, nullptr, "");
     int band = 1;
     std::vector<double> burn(handles.size(), 1);
@@ -115,8 +118,8 @@ struct Reader {
       throw WorkError("cannot draw the slide's polygon", QuietGdal::message(), "simplify it");
     std::vector<uint8_t> result = read_north_up<uint8_t>(*mask, RasterGrid(ground), GDT_Byte);
     LGIW_VALIDATE(std::find(result.begin(), result.end(), 1) != result.end(),
-                  "the slide's polygon contains no terrain node", text("the nodes are %g m apart", ground.dx),
-                  "enlarge it or use a finer terrain source");
+                  at_key(c, "slide") + "the slide's polygon contains no terrain node",
+                  text("the nodes are %g m apart", ground.dx), "enlarge it or use a finer terrain source");
     return result;
   }
 
@@ -125,7 +128,7 @@ struct Reader {
     const SlideSurface& surface = c.slide.surface;
     std::vector<double> z(ground.z.size(), nan);
     if (!surface.before.empty()) {
-      what = "slide.surface.after";
+      what = "slide.after";
       const std::vector<double> before = raster(surface.before, "before", nan),
                                 after = raster(surface.after, "after", nan);
       // The ground may come from another survey: the change counts, not the level. Deposits (after > before) are no
@@ -133,17 +136,17 @@ struct Reader {
       for (std::size_t k = 0; k < z.size(); ++k)
         if (before[k] > after[k]) z[k] = ground.z[k] - (before[k] - after[k]);
     } else if (!surface.thickness.empty()) {
-      what = "slide.surface.thickness";
+      what = "slide.thickness";
       const std::vector<double> thickness = raster(surface.thickness, "thickness", 0);
       for (std::size_t k = 0; k < z.size(); ++k) z[k] = ground.z[k] - std::abs(thickness[k]);
     } else if (!surface.failure_surface.empty()) {
-      what = "slide.surface.failure_surface";
+      what = "slide.failure_surface";
       z = raster(surface.failure_surface, "failure_surface", nan);
     } else if (surface.depth) {
-      what = "slide.surface.depth";
+      what = "slide.depth";
       for (std::size_t k = 0; k < z.size(); ++k) z[k] = ground.z[k] - *surface.depth;
     } else if (surface.plane) {
-      what = "slide.surface.plane";
+      what = "slide.plane";
       const SlideSurface::Plane& plane = *surface.plane;
       const double east = std::sin(plane.dip_direction * degree), north = std::cos(plane.dip_direction * degree);
       const double fall = std::tan(plane.dip * degree);
@@ -153,19 +156,19 @@ struct Reader {
         z[k] = plane.z - fall * ((x - plane.x) * east + (y - plane.y) * north);
       }
     } else if (surface.base_elevation) {
-      what = "slide.surface.base_elevation";
+      what = "slide.base_elevation";
       std::fill(z.begin(), z.end(), *surface.base_elevation);
     } else if (surface.slbl) {
-      what = "slide.surface.slbl";
+      what = "slide.slbl";
       const double tolerance = surface.slbl->tolerance != 0
                                    ? surface.slbl->tolerance
                                    : automatic_tolerance(ground, inside_polygon, *surface.slbl);
       if (surface.slbl->tolerance == 0)
-        notes.push_back(text("slide.surface.slbl.tolerance: automatic, %.4g m per cell of %g m", tolerance, ground.dx));
+        notes.push_back(text("slide.slbl.tolerance: automatic, %.4g m per cell of %g m", tolerance, ground.dx));
       z = sloping_local_base_level(ground, inside_polygon, *surface.slbl, tolerance);
     } else {
-      throw InputError("the slide has no failure surface", "slide.surface is empty",
-                       "give slide.surface one of thickness, before and after, failure_surface, depth, plane, "
+      throw InputError(at_key(c, "slide") + "the slide has no failure surface", "slide names none",
+                       "give slide one of thickness, before and after, failure_surface, depth, plane, "
                        "base_elevation, slbl");
     }
     return z;
@@ -180,7 +183,7 @@ SlideBody make_slide(const Case& c, const HeightField& ground, const OGRSpatialR
   const std::vector<Geometry> polygons = reader.polygons();
   const SlideSurface& surface = c.slide.surface;
   const bool outlined = !surface.before.empty() || !surface.thickness.empty() || !surface.failure_surface.empty();
-  LGIW_VALIDATE(!polygons.empty() || outlined, "the slide has no outline",
+  LGIW_VALIDATE(!polygons.empty() || outlined, at_key(c, "slide") + "the slide has no outline",
                 "only rasters of the slide tell where it ends", "give slide.polygon or slide.polygon_file");
   const std::vector<uint8_t> inside = reader.inside(polygons);
   std::string what;
@@ -205,21 +208,22 @@ SlideBody make_slide(const Case& c, const HeightField& ground, const OGRSpatialR
     body.mask[k] = 1;
     body.volume += thickness * cell;
   }
-  LGIW_VALIDATE(thickest > -HUGE_VAL, what + " says nothing inside the slide's polygon",
+  LGIW_VALIDATE(thickest > -HUGE_VAL, at_key(c, what) + what + " says nothing inside the slide's polygon",
                 "the raster has only no-data there", "check its extent and CRS, or move the polygon");
-  LGIW_VALIDATE(thickest > 0, "the slide is empty: the failure surface lies above the ground everywhere",
+  LGIW_VALIDATE(thickest > 0,
+                at_key(c, "slide") + "the slide is empty: the failure surface lies above the ground everywhere",
                 text("%s comes no nearer than %g m below the ground", what.c_str(), thickest),
                 "lower the failure surface or move the polygon");
-  LGIW_VALIDATE(body.volume > 0, "the slide is empty: it is too thin to be filled with particles",
+  LGIW_VALIDATE(body.volume > 0, at_key(c, "slide") + "the slide is empty: it is too thin to be filled with particles",
                 text("at most %g m, and slide.min_thickness is %g m", thickest, thinnest),
-                "choose a smaller dp or slide.min_thickness");
+                "choose a smaller particle_spacing or slide.min_thickness");
   if (thin_cells > 0)
     notes.push_back(text("slide: %lld cells thinner than %g m left out (%g m3)", static_cast<long long>(thin_cells),
                          thinnest, thin_volume));
   for (std::size_t k = 0; k < body.mask.size(); ++k) {
     const std::size_t i = k % ground.nx, j = k / ground.nx;
     const bool edge = i == 0 || j == 0 || i + 1 == ground.nx || j + 1 == ground.ny;
-    LGIW_VALIDATE(!edge || !body.mask[k], "the slide reaches the edge of the domain",
+    LGIW_VALIDATE(!edge || !body.mask[k], at_key(c, "slide") + "the slide reaches the edge of the domain",
                   text("at %.8g, %.8g, where it would be cut off", ground.x0 + double(i) * ground.dx,
                        ground.y0 + double(j) * ground.dx),
                   "enlarge terrain.window or cut the slide with slide.polygon");

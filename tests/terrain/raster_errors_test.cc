@@ -1,0 +1,152 @@
+// Malformed terrain: each gives one line that says what, why and what to do.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "hand_rasters.hh"
+
+namespace lgiw {
+namespace {
+
+using namespace test;
+
+struct RasterErrors : testing::Test {
+  Scratch scratch;
+  std::vector<std::vector<double>> rows = rows_of(6, 5, 0, 0, 10, [](double x, double y) { return x + y; });
+  Case good() { return raster_case({write_asc(scratch("good.asc"), 1000, 2000, 10, rows)}); }
+};
+
+TEST_F(RasterErrors, MissingFile) {
+  const std::string error = error_of(raster_case({scratch("no.tif")}));
+  EXPECT_HAS(error, "no.tif': cannot be read as a raster (GDAL: ");
+  EXPECT_HAS(error, "No such file");
+}
+
+TEST_F(RasterErrors, NoRaster) {
+  std::ofstream(scratch("text.tif")) << "this is no raster\n";
+  EXPECT_HAS(error_of(raster_case({scratch("text.tif")})), "cannot be read as a raster");
+}
+
+TEST_F(RasterErrors, TruncatedTiff) {
+  const auto many = rows_of(200, 200, 0, 0, 10, [](double x, double y) { return x + y; });
+  const std::string file = write_tif(scratch("cut.tif"), {0, 10, 0, 2000, 0, -10}, "EPSG:32611", many);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  const std::string error = error_of(raster_case({file}));
+  EXPECT_HAS(error, "cut.tif'");
+  EXPECT_HAS(error, "cannot be read");
+}
+
+TEST_F(RasterErrors, TruncatedAscii) {
+  const std::string file =
+      write_asc(scratch("cut.asc"), 0, 0, 10, rows_of(50, 50, 0, 0, 10, [](double x, double y) { return x + y; }));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_HAS(error_of(raster_case({file})), "cannot be read to its end");
+}
+
+TEST_F(RasterErrors, NoCrsAnywhere) {
+  Case c = good();
+  c.terrain.crs = "";
+  EXPECT_HAS(error_of(c),
+             "good.asc': names no CRS (its coordinates could be in metres of any zone or in degrees) set terrain.crs");
+}
+
+TEST_F(RasterErrors, NoCrsAndDegrees) {
+  EXPECT_HAS(error_of(raster_case({write_asc(scratch("d.asc"), -118.2, 34.2, 1.0 / 3600, rows)})),
+             "has no CRS and its coordinates look like degrees");
+}
+
+TEST_F(RasterErrors, DegreesAsTheCaseCrs) {
+  Case c = raster_case({write_tif(scratch("d.tif"), {-118.2, 0.001, 0, 34.2, 0, -0.001}, "EPSG:4326", rows)});
+  c.terrain.crs = "";
+  std::string error = error_of(c);
+  EXPECT_HAS(error, "its CRS is in degrees");
+  EXPECT_HAS(error, "e.g. EPSG:32611");  // the zone it lies in
+  c.terrain.crs = "EPSG:4326";
+  EXPECT_HAS(error_of(c), "terrain.crs 'EPSG:4326' is in degrees");
+}
+
+TEST_F(RasterErrors, FeetMercatorAndNonsenseAsTheCaseCrs) {
+  Case c = good();
+  c.terrain.crs = "EPSG:2229";  // California zone 5 in US survey feet
+  EXPECT_HAS(error_of(c), "terrain.crs 'EPSG:2229' measures in US survey foot");
+  c.terrain.crs = "EPSG:3857";
+  EXPECT_HAS(error_of(c), "is a Mercator map (its metres grow with latitude");
+  c.terrain.crs = "EPSG:99999999";
+  EXPECT_HAS(error_of(c), "terrain.crs 'EPSG:99999999' is not a CRS");
+}
+
+TEST_F(RasterErrors, ElevationsInFeet) {
+  const std::string file = write_tif(scratch("ft.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows);
+  {
+    GDALDatasetUniquePtr data(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+    data->GetRasterBand(1)->SetUnitType("ft");
+  }
+  EXPECT_HAS(error_of(raster_case({file})), "has elevations in 'ft'");
+}
+
+TEST_F(RasterErrors, OnlyNan) {
+  for (auto& row : rows)
+    for (double& z : row) z = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_HAS(error_of(raster_case({write_tif(scratch("nan.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows)})),
+             "the terrain window holds no elevations at all (all of its 30 cells are no-data or NaN)");
+}
+
+TEST_F(RasterErrors, UndeclaredNoData) {
+  rows[1][2] = -32768;
+  const std::string error =
+      error_of(raster_case({write_tif(scratch("u.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows)}));
+  EXPECT_HAS(error, "has -32768 m at 25, 35");
+  EXPECT_HAS(error, "gdal_edit.py -a_nodata -32768");
+}
+
+TEST_F(RasterErrors, HugeDimensions) {
+  std::ofstream(scratch("huge.vrt")) << R"(<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000">
+    <SRS>EPSG:32611</SRS><GeoTransform>0, 1e-3, 0, 2e6, 0, -1e-3</GeoTransform>
+    <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)";
+  EXPECT_HAS(error_of(raster_case({scratch("huge.vrt")}, 0.01)), "cells of 0.0");
+}
+
+TEST_F(RasterErrors, WindowOutsideWithBothExtents) {
+  Case c = good();
+  c.terrain.window = {{900, 2000, 1050, 2040}};
+  EXPECT_HAS(
+      error_of(c),
+      "terrain.window reaches outside the terrain sources (it is x 900 to 1050, y 2000 to 2040; they cover x 1000 to "
+      "1060, y 2000 to 2050)");
+  c.terrain.window = {{1010, 2010, 1012, 2040}};
+  EXPECT_HAS(error_of(c), "fewer than 3 x 3 nodes");
+}
+
+TEST_F(RasterErrors, SourcesApart) {
+  Case c = raster_case({write_asc(scratch("a.asc"), 0, 0, 10, rows), write_asc(scratch("b.asc"), 500, 0, 10, rows)});
+  EXPECT_HAS(error_of(c), "the terrain sources have no common extent");
+}
+
+TEST_F(RasterErrors, Picture) {
+  GDALAllRegister();
+  const std::string file = scratch("rgb.tif");
+  {
+    GDALDatasetUniquePtr data(
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 6, 5, 3, GDT_Byte, nullptr));
+    double geo[6] = {0, 10, 0, 50, 0, -10};
+    data->SetGeoTransform(geo);
+  }
+  EXPECT_HAS(error_of(raster_case({file})), "is a picture");
+}
+
+TEST_F(RasterErrors, NoGeoreference) {
+  GDALAllRegister();
+  const std::string file = scratch("plain.tif");
+  GDALDatasetUniquePtr(
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 6, 5, 1, GDT_Float32, nullptr));
+  EXPECT_HAS(error_of(raster_case({file})), "has no georeference");
+}
+
+TEST_F(RasterErrors, TwoDimensionalCase) {
+  Case c = good();
+  c.dimension = 2;
+  EXPECT_HAS(error_of(c), "terrain.sources in a 2-D case");
+}
+
+}  // namespace
+}  // namespace lgiw
