@@ -53,9 +53,9 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return nearest;
 }
 
-std::string number_text(double value) {
+std::string number_text(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 
@@ -72,7 +72,7 @@ std::vector<std::string> case_warnings(const Case& c) {
   if (!(c.slide.present && c.water.present) && given("interface"))
     warn("interface", "interface has no effect", "it needs both water and slide", "leave interface out");
   if (c.slide.present && c.soil.bed != WallFriction::coulomb && c.soil.sides != WallFriction::coulomb &&
-      given("soil.bed_friction_angle"))
+      c.soil.bed_friction_angle > 0)
     warn("soil.bed_friction_angle", "soil.bed_friction_angle has no effect", "no wall is coulomb",
          "set soil.bed: coulomb");
   // Metres of soil with a few pascals of cohesion: laboratory values come with laboratory spacings.

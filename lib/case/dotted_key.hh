@@ -13,7 +13,7 @@ std::string nearest_place(const std::map<std::string, std::string>& places, std:
 /// The word with the smallest Levenshtein distance to `word`; the first of equals.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& words);
 
-/// Six digits, no trailing zeros.
-std::string number_text(double value);
+/// So many significant digits, no trailing zeros; a coordinate wants ten.
+std::string number_text(double value, int digits = 6);
 
 }  // namespace lgiw

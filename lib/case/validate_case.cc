@@ -15,8 +15,9 @@ namespace {
 struct Extent {
   double x_min = -HUGE_VAL, y_min = -HUGE_VAL, x_max = HUGE_VAL, y_max = HUGE_VAL;
   std::string name = "terrain.window";
-  bool holds(double x, double y) const { return x >= x_min && x <= x_max && y >= y_min && y <= y_max; }
 };
+
+std::string point_text(const Point2& p) { return "(" + number_text(p[0], 10) + ", " + number_text(p[1], 10) + ")"; }
 
 class Validator {
  public:
@@ -145,10 +146,12 @@ class Validator {
     return e;
   }
 
-  void check_inside(const std::string& key, const std::string& what, double x, double y) const {
+  /// `in_plan` false: the point is (x, z) and only x counts.
+  void check_inside(const std::string& key, const std::string& what, const Point2& p, bool in_plan = true) const {
     const Extent e = extent();
-    refuse_if(!e.holds(x, y), key, what + " lies outside the domain",
-              "(" + number_text(x) + ", " + number_text(y) + ") is beyond " + e.name, "move it or widen the domain");
+    const bool inside = p[0] >= e.x_min && p[0] <= e.x_max && (!in_plan || (p[1] >= e.y_min && p[1] <= e.y_max));
+    refuse_if(!inside, key, what + " lies outside the domain", point_text(p) + " is beyond " + e.name,
+              "move it or widen the domain");
   }
 
   void check_polygon(const std::string& key, const std::vector<Point2>& polygon) const {
@@ -156,9 +159,7 @@ class Validator {
               "an outline needs three", "add points around it");
     const int edge = self_intersection(polygon);
     if (edge >= 0) {
-      const Point2& p = polygon[edge];
-      refuse(key, key + " crosses or touches itself",
-             "its edge from (" + number_text(p[0]) + ", " + number_text(p[1]) + ") meets another",
+      refuse(key, key + " crosses or touches itself", "its edge from " + point_text(polygon[edge]) + " meets another",
              "list the points once around, in order");
     }
   }
@@ -169,8 +170,7 @@ class Validator {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const std::string body = key + "." + std::to_string(i);
       check_polygon(body, bodies[i]);
-      const double y = 0;  // (x, z): the extent in x counts
-      for (const Point2& p : bodies[i]) check_inside(body, body, p[0], y);
+      for (const Point2& p : bodies[i]) check_inside(body, body, p, false);
     }
   }
 
@@ -179,7 +179,7 @@ class Validator {
     check_bodies("water.bodies", c_.water.bodies);
     refuse_if(rasters() && !c_.water.seed, "water", "water.seed is missing",
               "not every hollow below the level is the reservoir", "add seed: [x, y], a point in the reservoir");
-    if (c_.water.seed) check_inside("water.seed", "water.seed", (*c_.water.seed)[0], (*c_.water.seed)[1]);
+    if (c_.water.seed) check_inside("water.seed", "water.seed", *c_.water.seed);
   }
 
   void check_slide() const {
@@ -215,7 +215,7 @@ class Validator {
               way + " reaches everywhere", "add polygon or polygon_file");
     if (given("slide.polygon")) {
       check_polygon("slide.polygon", slide.polygon);
-      for (const Point2& p : slide.polygon) check_inside("slide.polygon", "slide.polygon", p[0], p[1]);
+      for (const Point2& p : slide.polygon) check_inside("slide.polygon", "slide.polygon", p);
     }
     if (s.slbl)
       refuse_if(s.slbl->neighbours != 4 && s.slbl->neighbours != 8, "slide.slbl.neighbours",
@@ -273,7 +273,7 @@ class Validator {
       else
         refuse_if(!given(key + ".y"), key, "gauge " + gauge.name + " has no y", "a gauge is a place in plan",
                   "write {name: " + gauge.name + ", x: ..., y: ...}");
-      check_inside(key, "gauge " + gauge.name, gauge.x, gauge.y);
+      check_inside(key, "gauge " + gauge.name, {gauge.x, gauge.y});
     }
   }
 
@@ -293,7 +293,7 @@ class Validator {
                   "a piece of it has no direction", "leave one of the two out");
         refuse_if(c_.dimension == 2 && p[1] != 0, key + ".points", "section " + section.name + " has a y",
                   "a 2-D scene lies in (x, z)", "write 0 for y");
-        check_inside(key + ".points", "section " + section.name, p[0], p[1]);
+        check_inside(key + ".points", "section " + section.name, p);
       }
     }
   }

@@ -245,6 +245,7 @@ void YamlDocument::check_keys(const YAML::Node& node, const std::string& key, co
   for (const std::string& k : known)
     if (k.compare(0, prefix.size(), prefix) == 0 && k.find('.', prefix.size()) == std::string::npos)
       siblings.push_back(k.substr(prefix.size()));
+  if (siblings.empty()) return;  // a mapping where a value belongs: reading it tells so
   std::set<std::string> seen;
   for (const auto& entry : node) {
     const std::string section = key.empty() ? "a case" : key;
