@@ -65,6 +65,8 @@ Handle access_properties(bool writing) {
   // No lock, for writers either: HDF5 refuses to open a file twice in one process with different ideas of locking.
   H5Pset_file_locking(list.id(), false, true);
   if (!writing) return list;
+  // Without a chunk cache, chunks get their place at the write and not at some later flush.
+  H5Pset_cache(list.id(), 0, 1, 0, 1.0);
   H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   // Aggregated blocks are given back at each flush, which would make the layout depend on when that happens.
   H5Pset_meta_block_size(list.id(), 0);
@@ -85,13 +87,6 @@ Handle access_properties(bool writing) {
 Handle creation_properties(hid_t list_class) {
   Handle list(H5Pcreate(list_class));
   H5Pset_obj_track_times(list.id(), false);
-  return list;
-}
-
-/// Dataset access without a chunk cache, so that chunks get their place at the write and not at some later flush.
-Handle uncached() {
-  Handle list(H5Pcreate(H5P_DATASET_ACCESS));
-  H5Pset_chunk_cache(list.id(), 1, 0, 1.0);
   return list;
 }
 
@@ -172,6 +167,17 @@ Handle slab_of(hid_t dataset, const Shape& start, const Shape& count) {
       H5Sselect_valid(space.id()) <= 0)
     return Handle();
   return space;
+}
+
+void write_part(hid_t dataset, const std::string& path, const std::string& name, hid_t type, const void* data,
+                const Shape& start, const Shape& count) {
+  const Handle file_space = slab_of(dataset, start, count);
+  if (!file_space)
+    write_failed(path, name,
+                 "slab " + text_of(start) + "+" + text_of(count) + " is not in " + text_of(extents(dataset)));
+  const Handle memory_space(H5Screate_simple(int(count.size()), count.data(), nullptr));
+  if (H5Dwrite(dataset, type, memory_space.id(), file_space.id(), H5P_DEFAULT, data) < 0)
+    write_failed(path, name, reason());
 }
 
 hsize_t element_count(const Shape& shape) {
@@ -309,16 +315,9 @@ void File::create_dataset(const std::string& name, const Shape& shape, bool exte
 template <class T>
 void File::write_slab(const std::string& name, const T* data, const Shape& start, const Shape& count) {
   if (element_count(count) == 0) return;
-  const Handle access = uncached();
-  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), access.id()));
+  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
-  const Handle file_space = slab_of(dataset.id(), start, count);
-  if (!file_space)
-    write_failed(path_, name,
-                 "slab " + text_of(start) + "+" + text_of(count) + " is not in " + text_of(extents(dataset.id())));
-  const Handle memory_space(H5Screate_simple(int(count.size()), count.data(), nullptr));
-  if (H5Dwrite(dataset.id(), native_type<T>(), memory_space.id(), file_space.id(), H5P_DEFAULT, data) < 0)
-    write_failed(path_, name, reason());
+  write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
 }
 
 template <class T>
@@ -329,18 +328,16 @@ void File::write(const std::string& name, const T* data, const Shape& shape, boo
 
 template <class T>
 void File::append(const std::string& name, const T* data, const Shape& count) {
-  Shape start(count.size(), 0), size;
-  {
-    const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
-    if (!dataset) write_failed(path_, name, reason());
-    size = extents(dataset.id());
-    if (size.size() != count.size() || !std::equal(size.begin() + 1, size.end(), count.begin() + 1))
-      write_failed(path_, name, text_of(count) + " cannot be appended to " + text_of(size));
-    start[0] = size[0];
-    size[0] += count[0];
-    if (H5Dset_extent(dataset.id(), size.data()) < 0) write_failed(path_, name, reason());
-  }
-  write_slab(name, data, start, count);
+  if (element_count(count) == 0) return;
+  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
+  if (!dataset) write_failed(path_, name, reason());
+  Shape start(count.size(), 0), size = extents(dataset.id());
+  if (size.size() != count.size() || !std::equal(size.begin() + 1, size.end(), count.begin() + 1))
+    write_failed(path_, name, text_of(count) + " cannot be appended to " + text_of(size));
+  start[0] = size[0];
+  size[0] += count[0];
+  if (H5Dset_extent(dataset.id(), size.data()) < 0) write_failed(path_, name, reason());
+  write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
 }
 
 template <class T>

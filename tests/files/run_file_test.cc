@@ -197,11 +197,13 @@ TEST(RunFile, LargeMapsAreTiledAndNodesReadAsSeries) {
     std::iota(map.begin(), map.end(), float(k));
     writer.add_surface(k, map, map);
   }
+  writer.add_surface(5, std::vector<float>(map.size(), NAN), std::vector<float>(map.size(), 0));
   writer.close();
   const RunReader run(scratch / "r.h5");
   EXPECT_EQ(run.water_surface(4), map);
+  EXPECT_EQ(run.soil_surface(5), std::vector<float>(map.size(), 0));
   const float first = 199 * 300 + 299;
-  EXPECT_EQ(run.soil_surface_at(299, 199), (std::vector<float>{first, first + 1, first + 2, first + 3, first + 4}));
+  EXPECT_EQ(run.soil_surface_at(299, 199), (std::vector<float>{first, first + 1, first + 2, first + 3, first + 4, 0}));
 }
 
 TEST(RunFile, RerunsAndFlushesLeaveTheSameBytes) {
