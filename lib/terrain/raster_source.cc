@@ -143,6 +143,10 @@ RasterSource::RasterSource(const std::string& path, std::string what, Provenance
                 "convert it, e.g. with gdal_calc.py");
   if (const OGRSpatialReference* crs = data_->GetSpatialRef()) crs_ = *crs;
   if (!crs_.IsEmpty()) {
+    const double vertical_unit = crs_.IsCompound() ? crs_.GetTargetLinearUnits("VERT_CS") : 1;
+    LGIW_VALIDATE(std::abs(vertical_unit - 1) < 1e-9, what_ + ": its vertical CRS is not in metres",
+                  text("its unit is %.9g m; everything here is in metres", vertical_unit),
+                  "convert it, e.g. with gdalwarp to a metric vertical CRS");
     crs_.StripVertical();
     crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   }

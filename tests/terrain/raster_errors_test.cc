@@ -84,6 +84,25 @@ TEST_F(RasterErrors, ElevationsInFeet) {
   EXPECT_HAS(error_of(raster_case({file})), "has elevations in 'ft'");
 }
 
+TEST_F(RasterErrors, VerticalCrsInFeet) {
+  // NAVD88 height in US survey feet on top of UTM: a GeoTIFF tells the unit with the band, a VRT only with its CRS.
+  const std::string file = write_tif(scratch("ft.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611+6360", rows);
+  EXPECT_HAS(error_of(raster_case({file})), "has elevations in 'US survey foot'");
+  std::ofstream(scratch("ft.vrt")) << R"(<VRTDataset rasterXSize="6" rasterYSize="5"><SRS>EPSG:32611+6360</SRS>
+    <GeoTransform>0, 10, 0, 50, 0, -10</GeoTransform><VRTRasterBand dataType="Float64" band="1"><SimpleSource>
+    <SourceFilename relativeToVRT="1">ft.tif</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>)";
+  EXPECT_HAS(error_of(raster_case({scratch("ft.vrt")})), "its vertical CRS is not in metres (its unit is 0.304800");
+}
+
+TEST_F(RasterErrors, PlaceInTheCaseFileComesFirst) {
+  const std::string yaml = "name: dry\nparticle_spacing: 0.5\nterrain:\n  crs: EPSG:32611\n  sources:\n    - file: " +
+                           write_asc(scratch("dry.asc"), 1000, 2000, 10, rows) +
+                           "\nwater:\n  level: 40\n  seed: [1055, 2045]\n";
+  const Case c = parse_case(yaml, "dry.yaml");
+  EXPECT_EQ(error_of(c).rfind("dry.yaml:9: water.seed 1055, 2045 is on dry land (the ground there is at 100 m", 0), 0u)
+      << error_of(c);
+}
+
 TEST_F(RasterErrors, OnlyNan) {
   for (auto& row : rows)
     for (double& z : row) z = std::numeric_limits<double>::quiet_NaN();

@@ -233,6 +233,39 @@ TEST(Voids, RefusedWithCountAndPlaceOrFilled) {
   for (const double z : model.ground.z) EXPECT_DOUBLE_EQ(z, 40);
 }
 
+TEST(Voids, MasksFloatNoDataAndScaleAreUnderstood) {
+  Scratch scratch;
+  const auto rows = rows_of(5, 4, 0, 0, 10, [](double x, double) { return x; });
+  const std::string masked = write_tif(scratch("m.tif"), {0, 10, 0, 40, 0, -10}, "EPSG:32611", rows);
+  {
+    GDALDatasetUniquePtr data(GDALDataset::Open(masked.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+    ASSERT_EQ(CE_None, data->CreateMaskBand(GMF_PER_DATASET));
+    uint8_t mask[20];
+    std::fill(mask, mask + 20, uint8_t(255));
+    mask[5 + 2] = 0;  // the second row from the north, x = 25, y = 25
+    ASSERT_EQ(CE_None, data->GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Write, 0, 0, 5, 4, mask, 5, 4, GDT_Byte, 0, 0,
+                                                                       nullptr));
+  }
+  EXPECT_HAS(error_of(raster_case({masked})), "1 void cells (the first at 25, 25)");
+
+  auto least = rows;
+  least[1][3] = -3.4028234663852886e38;  // the lowest float, as many tools write it
+  const std::string floats = write_tif(scratch("f.tif"), {0, 10, 0, 40, 0, -10}, "EPSG:32611", least, GDT_Float32);
+  {
+    GDALDatasetUniquePtr data(GDALDataset::Open(floats.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+    data->GetRasterBand(1)->SetNoDataValue(-3.4028234663852886e38);
+  }
+  EXPECT_HAS(error_of(raster_case({floats})), "1 void cells (the first at 35, 25)");
+
+  const std::string scaled = write_tif(scratch("s.tif"), {0, 10, 0, 40, 0, -10}, "EPSG:32611", rows, GDT_Int16);
+  {
+    GDALDatasetUniquePtr data(GDALDataset::Open(scaled.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+    data->GetRasterBand(1)->SetScale(0.1);
+    data->GetRasterBand(1)->SetOffset(100);
+  }
+  EXPECT_DOUBLE_EQ(build(raster_case({scaled})).ground.at(3, 0), 103.5);
+}
+
 TEST(Voids, FilledValuesLieBetweenTheirSurroundings) {
   Scratch scratch;
   auto rows = rows_of(21, 21, 0, 0, 10, [](double x, double) { return 1000 + x; });
