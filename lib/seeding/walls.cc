@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lgiw {
 
@@ -42,15 +43,17 @@ Walls::Walls(const Case& c, const TerrainModel& model, const MapCells& cells, co
     side_top_ = std::max(side_top_, highest_fluid + (highest_fluid - bed.lowest()));
   if (c.terrain.wall_top != 0) side_top_ = c.terrain.wall_top - model.origin[2], fixed_top_ = true;
 
-  halo_ = cells.rim;
+  halo_ = cells.rim + 1;
   const int64_t halo_y = cells.two_d ? 0 : halo_, width = cells.width() + 2 * halo_;
   const int64_t rows = cells.ny + 2 * (cells.rim_y + halo_y);
   centre_.resize(std::size_t(width * rows));
 #pragma omp parallel for schedule(static)
   for (int64_t row = 0; row < rows; ++row)
-    for (int64_t k = 0; k < width; ++k)
-      centre_[std::size_t(row * width + k)] =
-          bed.height(cells.x(k - halo_ - cells.rim), cells.y(row - halo_y - cells.rim_y));
+    for (int64_t k = 0; k < width; ++k) {
+      const double x = cells.x(k - halo_ - cells.rim), y = cells.y(row - halo_y - cells.rim_y);
+      const std::array<double, 2> slope = bed.gradient(x, y);
+      centre_[std::size_t(row * width + k)] = {bed.height(x, y), {float(slope[0]), float(slope[1])}};
+    }
 
   reachable_.assign(std::size_t(cells.nx * cells.ny), 1);
   if (analytic) {
@@ -82,27 +85,29 @@ Walls::Columns Walls::subdivision(const std::array<double, 2>& gradient) const {
   return {parts(gradient[0]), cells_.two_d ? 1 : parts(gradient[1])};
 }
 
-/// Calls visit(dx, dy, z) for the cell centres within `reach` of (x, y) on the map; z is the bed there.
+/// Calls visit(dx, dy, z) for points of the surface around (x, y): of each map cell within `reach` its centre and its
+/// nearest point, whose height follows from the slope within the cell. So planes stay planes and steps steps.
 template <class Visit>
 void Walls::visit_surface(double x, double y, double reach, const Visit& visit) const {
-  const double dp = cells_.dp;
-  const int64_t width = cells_.width() + 2 * halo_, halo_y = cells_.two_d ? 0 : halo_;
+  const double dp = cells_.dp, half = 0.5 * dp;
+  const int64_t halo_y = cells_.two_d ? 0 : halo_, width = cells_.width() + 2 * halo_;
   const int64_t rows = cells_.ny + 2 * (cells_.rim_y + halo_y);
   const int64_t shift = halo_ + cells_.rim, shift_y = halo_y + cells_.rim_y;
-  const auto low_index = [&](double at, double start, int64_t offset) {
-    return std::max<int64_t>(0, int64_t(std::ceil((at - reach - start) / dp - 0.5)) + offset);
+  const auto range = [&](double at, double start, int64_t offset, int64_t count) {
+    const int64_t low = int64_t(std::floor((at - reach - start) / dp)) + offset;
+    const int64_t high = int64_t(std::floor((at + reach - start) / dp)) + offset;
+    return std::pair{std::max<int64_t>(0, low), std::min(count - 1, high)};
   };
-  const auto high_index = [&](double at, double start, int64_t offset, int64_t count) {
-    return std::min<int64_t>(count - 1, int64_t(std::floor((at + reach - start) / dp - 0.5)) + offset);
-  };
-  const int64_t i_low = low_index(x, cells_.x_low, shift), i_high = high_index(x, cells_.x_low, shift, width);
-  const int64_t j_low = cells_.two_d ? 0 : low_index(y, cells_.y_low, shift_y);
-  const int64_t j_high = cells_.two_d ? 0 : high_index(y, cells_.y_low, shift_y, rows);
+  const auto [i_low, i_high] = range(x, cells_.x_low, shift, width);
+  const auto [j_low, j_high] = cells_.two_d ? std::pair<int64_t, int64_t>{0, 0} : range(y, cells_.y_low, shift_y, rows);
   for (int64_t j = j_low; j <= j_high; ++j) {
-    const double dy = cells_.y(j - shift_y) - y;
+    const double dy = cells_.y(j - shift_y) - y, near_y = dy - std::clamp(dy, -half, half);
     for (int64_t i = i_low; i <= i_high; ++i) {
-      const double dx = cells_.x(i - shift) - x;
-      if (dx * dx + dy * dy <= reach * reach) visit(dx, dy, centre_[std::size_t(j * width + i)]);
+      const double dx = cells_.x(i - shift) - x, near_x = dx - std::clamp(dx, -half, half);
+      const Cell& cell = centre_[std::size_t(j * width + i)];
+      if (near_x * near_x + near_y * near_y >= reach * reach) continue;
+      visit(near_x, near_y, cell.height + cell.slope[0] * (near_x - dx) + cell.slope[1] * (near_y - dy));
+      if (dx * dx + dy * dy < reach * reach) visit(dx, dy, cell.height);
     }
   }
 }

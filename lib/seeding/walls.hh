@@ -55,9 +55,13 @@ class Walls {
   const BedSurface& bed_;
   double thickness_, z_phase_, side_top_, soil_margin_;
   bool fixed_top_ = false;
-  std::array<bool, 4> side_wall_;   // west, east, south, north
-  int64_t halo_ = 0;                // cells beyond the rim of centre_
-  std::vector<double> centre_;      // bed height at cell centres, rim and halo included
+  std::array<bool, 4> side_wall_;  // west, east, south, north
+  struct Cell {
+    double height;
+    std::array<float, 2> slope;
+  };
+  int64_t halo_ = 0;                // cells of centre_ beyond the rim
+  std::vector<Cell> centre_;        // bed at the cell centres, rim and halo included
   std::vector<uint8_t> reachable_;  // per cell of the domain
 };
 

@@ -1,0 +1,40 @@
+#include "gtest/gtest.h"
+#include "seeding/run_estimate.hh"
+
+namespace lgiw::test {
+namespace {
+
+TEST(Estimate, ByHand) {
+  Case c;
+  c.dimension = 2;
+  c.dp = 0.01;
+  c.water.present = true;
+  c.output.end_time = 2;
+  SeedingReport report;
+  report.counts = {1000, 0, 500, 0};
+  // h = 0.015 m, c = 27 m/s, v = 2.7 m/s: dt = 0.4 * 0.015 / 29.7 = 2.0202e-4 s; 2 s are 9900 steps.
+  const RunEstimate e = estimate_run(c, report, 27, 1.5e6);
+  EXPECT_NEAR(e.time_step, 2.0202e-4, 1e-8);
+  EXPECT_EQ(e.steps, 9900);
+  EXPECT_NEAR(e.run_time, 9.9, 1e-9);
+  EXPECT_GT(e.memory_bytes, 1500 * 40);
+}
+
+TEST(Estimate, TheSoilsWaveSpeedCounts) {
+  Case c;
+  c.dp = 0.01;
+  c.slide.present = true;
+  c.soil.young_modulus = 1e6, c.soil.poisson_ratio = 0.3, c.soil.density = 2000;
+  // K = 833333, G = 384615: sqrt((K + 4/3 G)/rho) = sqrt(1346154/2000) = 25.944 m/s
+  EXPECT_NEAR(soil_sound_speed(c), 25.944, 1e-3);
+  EXPECT_NEAR(estimate_run(c, {}, 0, 1e6).time_step, 0.4 * 0.015 / (1.1 * 25.944), 1e-8);
+  // Twice the precision, more memory.
+  SeedingReport report;
+  report.counts = {0, 1000000, 0, 0};
+  const double mixed = estimate_run(c, report, 0, 1e6).memory_bytes;
+  c.numerics.precision = Precision::double_;
+  EXPECT_GT(estimate_run(c, report, 0, 1e6).memory_bytes, 1.2 * mixed);
+}
+
+}  // namespace
+}  // namespace lgiw::test
