@@ -1,0 +1,88 @@
+#include "measure/gauge_series.hh"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hh"
+#include "measure/surface_sampling.hh"
+
+namespace lgiw {
+
+GaugeRecorder::GaugeRecorder(const RunHeader& header, const std::vector<Gauge>& gauges) : header_(header) {
+  for (const Gauge& gauge : gauges) {
+    GaugeSeries series;
+    series.gauge = gauge;
+    const auto& origin = header.particles.origin;
+    series.bed = header.particles.bed.empty()
+                     ? no_value
+                     : header.particles.bed.height(gauge.x - origin[0], gauge.y - origin[1]) + origin[2];
+    series_.push_back(std::move(series));
+  }
+}
+
+void GaugeRecorder::add(double time, const std::vector<float>& water, const std::vector<float>& soil) {
+  const auto& origin = header_.particles.origin;
+  for (GaugeSeries& series : series_) {
+    const double x = series.gauge.x - origin[0], y = series.gauge.y - origin[1];
+    const auto sample = [&](const std::vector<float>& values) {
+      return values.empty() ? no_value : sample_surface(header_.map, values, x, y) + origin[2];
+    };
+    if (series.time.empty()) {
+      series.initially_dry = std::isnan(sample(water));
+      const double soil_surface = sample(soil);
+      const bool on_soil = series.initially_dry && (water.empty() || !std::isnan(soil_surface));
+      series.surface = on_soil ? GaugeSurface::soil : GaugeSurface::water;
+      series.reference = on_soil ? soil_surface : header_.particles.still_water_level + origin[2];
+    }
+    series.time.push_back(time);
+    series.elevation.push_back(sample(series.surface == GaugeSurface::soil ? soil : water));
+  }
+}
+
+GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds) {
+  GaugePeaks peaks{no_value, no_value, no_value, no_value, no_value, {}};
+  const std::size_t n = series.time.size();
+  const auto height = [&](std::size_t k) { return series.elevation[k] - series.reference; };
+  for (std::size_t k = 0; k < n; ++k)
+    if (!std::isnan(series.elevation[k]) && !(series.elevation[k] <= peaks.max_elevation)) {
+      peaks.max_elevation = series.elevation[k];
+      peaks.max_height = height(k);
+      peaks.time_of_max = series.time[k];
+    }
+
+  const bool water = series.surface == GaugeSurface::water;
+  for (double threshold : thresholds) {
+    // How far the water has come: NaN where it is dry.
+    const auto change = [&](std::size_t k) {
+      return water && series.initially_dry ? series.elevation[k] - series.bed : std::abs(height(k));
+    };
+    double arrival = no_value;
+    for (std::size_t k = 0; k < n && std::isnan(arrival); ++k) {
+      if (!(change(k) > threshold)) continue;
+      arrival = series.time[k];
+      if (k > 0 && change(k - 1) <= threshold) {
+        const double a = (threshold - change(k - 1)) / (change(k) - change(k - 1));
+        arrival = series.time[k - 1] + a * (series.time[k] - series.time[k - 1]);
+      }
+    }
+    peaks.arrival.push_back(arrival);
+  }
+
+  const double depth = water && !thresholds.empty() ? thresholds.front() : 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double z = height(k);
+    if (z < 0 && !(z >= peaks.first_trough)) peaks.first_trough = z, peaks.time_of_trough = series.time[k];
+    if (water && z >= 0) {
+      if (peaks.first_trough < -depth) break;
+      peaks.first_trough = peaks.time_of_trough = no_value;  // a ripple
+    }
+  }
+  if (!(peaks.first_trough < -depth)) peaks.first_trough = peaks.time_of_trough = no_value;
+  return peaks;
+}
+
+double arrival_threshold(const Case& c, double dp) {
+  return c.output.arrival_threshold > 0 ? c.output.arrival_threshold : dp / 4;
+}
+
+}  // namespace lgiw

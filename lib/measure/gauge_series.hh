@@ -1,0 +1,53 @@
+// Wave gauges: the surface at a place in plan against time, and what is read off such a series.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hh"
+#include "files/run_file.hh"
+
+namespace lgiw {
+
+enum class GaugeSurface { water, soil };
+
+struct GaugeSeries {
+  Gauge gauge;  // coordinates in the case's CRS
+  GaugeSurface surface = GaugeSurface::water;
+  bool initially_dry = false;     // a water gauge on land
+  double bed = 0;                 // elevation
+  double reference = 0;           // what heights are measured from: still water level; on soil its surface at the start
+  std::vector<double> time;       // s
+  std::vector<double> elevation;  // of the surface in the case's vertical datum, m; NaN where dry
+};
+
+/// Follows gauges through a run's surfaces. A gauge that at the first time is dry and on soil follows the soil surface
+/// (S1 and S2 of the reference paper), all others the water.
+class GaugeRecorder {
+ public:
+  GaugeRecorder(const RunHeader& header, const std::vector<Gauge>& gauges);
+  /// The next surfaces, [ny,nx] local; empty where the scene has none of that phase.
+  void add(double time, const std::vector<float>& water, const std::vector<float>& soil);
+  const std::vector<GaugeSeries>& series() const { return series_; }
+
+ private:
+  const RunHeader& header_;
+  std::vector<GaugeSeries> series_;
+};
+
+struct GaugePeaks {
+  double max_elevation = 0, max_height = 0, time_of_max = 0;  // height above the reference; NaN when never wet
+  /// Water: lowest height in the first stretch below still level that goes deeper than the first threshold. Soil:
+  /// lowest height of all. NaN where there is none.
+  double first_trough = 0, time_of_trough = 0;
+  /// For each threshold the first time at which the surface differs from the reference, or the water over dry land is
+  /// deep, by more than it; linear between samples; NaN: never.
+  std::vector<double> arrival;
+};
+
+GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds);
+
+/// The arrival threshold of a case, with its default of a quarter of dp.
+double arrival_threshold(const Case& c, double dp);
+
+}  // namespace lgiw

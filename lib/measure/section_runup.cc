@@ -1,0 +1,65 @@
+#include "measure/section_runup.hh"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lgiw {
+
+RunupRecorder::RunupRecorder(const RunHeader& header, const std::vector<Section>& sections) : header_(header) {
+  for (const Section& section : sections) {
+    Line line;
+    line.stations = section_stations(section, header.particles.origin, header.map.dx / 2);
+    for (const Station& s : line.stations) line.bed.push_back(header.particles.bed.height(s.x, s.y));
+    lines_.push_back(std::move(line));
+    SectionRunup runup;
+    runup.name = section.name;
+    runup.max_elevation = runup.max_height = runup.time_of_max = no_value;
+    sections_.push_back(std::move(runup));
+  }
+}
+
+void RunupRecorder::find_bank(Line& line, SectionRunup& section, const std::vector<float>& water) const {
+  // The lowest ground, not bed: under the slide the bed is its failure surface.
+  const HeightField& ground = ground_of(header_.particles);
+  double lowest = infinite;
+  for (std::size_t k = 0; k < line.stations.size(); ++k) {
+    const Station& s = line.stations[k];
+    if (std::isnan(sample_surface(header_.map, water, s.x, s.y))) continue;
+    const double z = ground.height(s.x, s.y);
+    if (z < lowest) lowest = z, line.first = k;
+  }
+  const Station& end = line.stations.back();
+  section.has_bank = std::isfinite(lowest) && std::isnan(sample_surface(header_.map, water, end.x, end.y)) &&
+                     line.bed.back() > header_.particles.still_water_level;
+}
+
+void RunupRecorder::add(double time, const std::vector<float>& water) {
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    Line& line = lines_[l];
+    SectionRunup& section = sections_[l];
+    if (section.time.empty()) find_bank(line, section, water);
+    double reached = no_value;
+    if (section.has_bank) {
+      std::size_t edge = line.stations.size();
+      double surface = no_value;
+      for (std::size_t k = line.first; k < line.stations.size(); ++k) {
+        const double z = sample_surface(header_.map, water, line.stations[k].x, line.stations[k].y);
+        if (std::isnan(z) || (edge < line.stations.size() && line.bed[k] < line.bed[edge])) continue;
+        edge = k, surface = z;
+      }
+      if (edge < line.stations.size()) {
+        const bool level = edge + 1 < line.stations.size() && line.bed[edge + 1] > surface - header_.particles.dp;
+        reached = (level ? std::max(surface, line.bed[edge]) : line.bed[edge]) + header_.particles.origin[2];
+      }
+    }
+    section.time.push_back(time);
+    section.elevation.push_back(reached);
+    if (!std::isnan(reached) && !(reached <= section.max_elevation)) {
+      section.max_elevation = reached;
+      section.max_height = reached - header_.particles.origin[2] - header_.particles.still_water_level;
+      section.time_of_max = time;
+    }
+  }
+}
+
+}  // namespace lgiw
