@@ -1,5 +1,6 @@
 #include "case/yaml_document.hh"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
@@ -82,6 +83,9 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
       refuse(line_place(name, documents[1].Mark()), "a second YAML document begins", "a file holds one case",
              "move it to a file of its own");
     return documents[0];
+  } catch (const YAML::DeepRecursion& e) {
+    refuse(line_place(name, e.mark), "not a case", "it nests hundreds of levels deep",
+           "check brackets and indentation");
   } catch (const YAML::Exception& e) {
     refuse(line_place(name, e.mark), "not valid YAML", shown(e.msg), "check indentation, brackets and quotes here");
   }

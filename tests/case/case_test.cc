@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <sstream>
 
 #include "base/error.hh"
 #include "case/dotted_key.hh"
@@ -266,6 +267,29 @@ TEST(Case, ReadsFilesAndResolvesNamesAgainstTheirFolder) {
   const Case text = parse_case(minimal, "c.yaml");
   EXPECT_EQ(text.folder(), ".");
   EXPECT_EQ(text.resolve("dem.tif"), "dem.tif");
+}
+
+TEST(Case, IsReadFromStdin) {
+  std::istringstream text(minimal);
+  std::streambuf* const before = std::cin.rdbuf(text.rdbuf());
+  const Case c = read_case("-", {"water.level=700"});
+  std::cin.rdbuf(before);
+  EXPECT_EQ(c.name, "canyon");
+  EXPECT_EQ(c.path, "-");
+  EXPECT_EQ(c.folder(), ".");
+  EXPECT_EQ(c.where("water.seed"), "stdin:7");
+
+  std::istringstream endless(std::string(3 << 20, 'x'));
+  std::cin.rdbuf(endless.rdbuf());
+  try {
+    read_case("-");
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "stdin:1: more than 1 MiB of text (a case is a page or two) put outlines into a vector file");
+  }
+  std::cin.rdbuf(before);
+  std::cin.clear();
 }
 
 TEST(CaseWarnings, NameWhatIsRarelyMeant) {
