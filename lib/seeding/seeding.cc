@@ -62,7 +62,7 @@ struct Seeder::Parts {
   void place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) const;
   void place_interval(const PhaseInterval& interval, const Column& place, int64_t begin, int64_t end,
                       Yield& yield) const;
-  void keep_off_bed(std::array<double, 3>& p, double foot) const;
+  void keep_off_bed(std::array<double, 3>& p) const;
   void work_on(int64_t begin, int64_t end, bool keep, Yield& yield) const;
 
   const Case c;
@@ -196,7 +196,7 @@ void Seeder::Parts::place_interval(const PhaseInterval& interval, const Column& 
     const double layer = double(k - place.lowest);
     std::array<double, 3> p{place.x, place.y, lattice.z_phase + (double(k) + 0.5) * dp};
     p[2] += lift * std::max(0.0, 1 - layer / place.settled);
-    if (layer < 2) keep_off_bed(p, place.foot);
+    if (layer < 3) keep_off_bed(p);
     block.points.insert(block.points.end(), p.begin(), p.end());
     block.volume.push_back(float(volume));
     if (water) {
@@ -214,11 +214,11 @@ void Seeder::Parts::place_interval(const PhaseInterval& interval, const Column& 
   }
 }
 
-/// Moves a particle over a bed at height `foot` out along the normal where it is too near, but not through a side.
-void Seeder::Parts::keep_off_bed(std::array<double, 3>& p, double foot) const {
+/// Moves a particle out along the bed's normal where it is too near, but not through a side.
+void Seeder::Parts::keep_off_bed(std::array<double, 3>& p) const {
   const std::array<double, 2> slope = bed.gradient(p[0], p[1]);
   const double stretch = std::sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
-  const double missing = nearest_wall * cells.dp - (p[2] - foot) / stretch;
+  const double missing = nearest_wall * cells.dp - (p[2] - bed.height(p[0], p[1])) / stretch;
   if (missing <= 0) return;
   p[0] -= missing * slope[0] / stretch, p[1] -= missing * slope[1] / stretch, p[2] += missing / stretch;
   const double half = 0.5 * cells.dp;
