@@ -53,7 +53,7 @@ std::string Provenance::to_json() const {
   json["inputs"] = nlohmann::ordered_json::array();
   for (const auto& [path, sha256] : inputs) json["inputs"].push_back({{"path", path}, {"sha256", sha256}});
   // A file name need not be UTF-8; JSON must be.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string version_string() { return LGIW_VERSION; }

@@ -43,8 +43,9 @@ struct Measurements {
   std::vector<GaugePeaks> peaks;
   std::vector<double> thresholds;  // the first is the case's
   std::vector<SectionRunup> sections;
-  double runup = no_value;        // the largest over the sections
-  double shore_runup = no_value;  // with --maps
+  double still_water_level = no_value;  // case datum
+  double runup = no_value;              // the largest over the sections
+  double shore_runup = no_value;        // with --maps
 };
 
 std::string library_versions() {
@@ -161,6 +162,7 @@ ordered_json summary_json(const Measurements& m, const Provenance& provenance) {
     for (std::size_t t = 1; t < m.thresholds.size(); ++t) gauge[threshold_name(m.thresholds[t])] = p.arrival[t];
     summary["gauges"].push_back(std::move(gauge));
   }
+  summary["still_water_level_m"] = m.still_water_level;
   summary["runup_m"] = m.runup;
   summary["sections"] = ordered_json::array();
   for (const SectionRunup& s : m.sections)
@@ -196,6 +198,7 @@ int run(const Options& options, const std::string& command) {
       "--thresholds names one twice", "each is a column of the table", "name each once");
 
   Measurements m;
+  m.still_water_level = particles.still_water_level + particles.origin[2];
   m.thresholds = {arrival_threshold(c, particles.dp)};
   for (double threshold : options.thresholds)
     if (threshold != m.thresholds.front()) m.thresholds.push_back(threshold);
@@ -260,7 +263,7 @@ int run(const Options& options, const std::string& command) {
   write(output,
         options.long_form ? long_table(m.gauges) : series_table(m.gauges, run.surface_times(), options.heights));
   write(options.peaks, peaks_table(m));
-  write(options.runup, runup_table(m.sections, run.surface_times(), particles.still_water_level + particles.origin[2]));
+  write(options.runup, runup_table(m.sections, run.surface_times(), m.still_water_level));
   if (!options.netcdf.empty())
     write_gauge_netcdf(options.netcdf, particles, m.gauges, c.name, provenance.enabled ? provenance.to_json() : "",
                        options.common.overwrite);

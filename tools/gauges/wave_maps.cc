@@ -47,7 +47,7 @@ std::vector<VectorFeature> shore_pieces(const ParticleHeader& header,
 std::vector<std::string> wave_map_files(const std::string& folder, const std::vector<double>& thresholds) {
   std::vector<std::string> files;
   for (const char* name :
-       {"max_elevation.tif", "max_depth.tif", "max_speed.tif", "arrival.tif", "hazard.tif", "wave.gpkg"})
+       {"ground.tif", "max_elevation.tif", "max_depth.tif", "max_speed.tif", "arrival.tif", "hazard.tif", "wave.gpkg"})
     files.push_back(in_folder(folder, name));
   for (double threshold : thresholds) files.push_back(in_folder(folder, arrival_name(threshold)));
   return files;
@@ -68,7 +68,10 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
   const std::vector<float> elevation = run.maximum("elevation"), depth = run.maximum("depth");
   std::vector<float> in_datum = elevation;
   for (float& z : in_datum) z = float(z + particles.origin[2]);
+  std::vector<float> ground;
+  for (double z : at_nodes(header.map, ground_of(particles))) ground.push_back(float(z + particles.origin[2]));
   const std::string datum = particles.vertical_datum.empty() ? "" : " above " + particles.vertical_datum;
+  raster("ground.tif", ground, "m", "ground before the slide" + datum);
   raster("max_elevation.tif", in_datum, "m", "highest water surface" + datum);
   raster("max_depth.tif", depth, "m", "largest water depth");
   raster("max_speed.tif", run.maximum("speed"), "m/s", "largest speed of the water");
