@@ -39,11 +39,19 @@ std::string kind_of(const YAML::Node& node) {
   return "\"" + shown(node.Scalar()) + "\"";
 }
 
-/// Counts documents and refuses aliases: a case is read literally, and a few nested aliases can stand for terabytes.
-class AliasCheck : public YAML::EventHandler {
+/// Refuses a second document, and aliases: a case is read literally, and a few nested aliases can stand for terabytes.
+class LiteralCheck : public YAML::EventHandler {
  public:
-  explicit AliasCheck(std::string name) : name_(std::move(name)) {}
-  void OnDocumentStart(const YAML::Mark&) override {}
+  explicit LiteralCheck(std::string name) : name_(std::move(name)) {}
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // yaml-cpp 0.7 finds documents without end before a stray comma or bracket.
+    if (document_ && document_->pos == mark.pos)
+      refuse(line_place(name_, mark), "not valid YAML", "no value begins like this", "check commas and brackets here");
+    if (document_)
+      refuse(line_place(name_, mark), "a second YAML document begins", "a file holds one case",
+             "move it to a file of its own");
+    document_ = mark;
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { check(mark, anchor); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { check(mark, 1); }
@@ -67,6 +75,7 @@ class AliasCheck : public YAML::EventHandler {
       refuse(line_place(name_, mark), "a YAML anchor or alias", "a case is read literally", "write the value out");
   }
   std::string name_;
+  std::optional<YAML::Mark> document_;
 };
 
 /// One document of literal YAML; null for an empty text.
@@ -74,15 +83,10 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
-    AliasCheck aliases(name);
-    while (parser.HandleNextDocument(aliases)) {
+    LiteralCheck check(name);
+    while (parser.HandleNextDocument(check)) {
     }
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty()) return YAML::Node(YAML::NodeType::Null);
-    if (documents.size() > 1)
-      refuse(line_place(name, documents[1].Mark()), "a second YAML document begins", "a file holds one case",
-             "move it to a file of its own");
-    return documents[0];
+    return YAML::Load(text);
   } catch (const YAML::DeepRecursion& e) {
     refuse(line_place(name, e.mark), "not a case", "it nests hundreds of levels deep",
            "check brackets and indentation");

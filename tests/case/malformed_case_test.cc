@@ -351,6 +351,11 @@ TEST(MalformedCase, NotYaml) {
   EXPECT_EQ(message_of("name: demo\n\tterrain: 3\n"),
             "c.yaml:2: not valid YAML (illegal tab when looking for indentation) check indentation, brackets and "
             "quotes here");
+  EXPECT_EQ(message_of("# a comment\n, name: demo\n"),
+            "c.yaml:2: not valid YAML (no value begins like this) check commas and brackets here");
+  EXPECT_EQ(message_of("]"), "c.yaml:1: not valid YAML (illegal flow end) check indentation, brackets and quotes here");
+  EXPECT_EQ(message_of(sound, {"name=,"}),
+            "--set name=,:1: not valid YAML (no value begins like this) check commas and brackets here");
   EXPECT_EQ(message_of(""), "c.yaml:1: the case is empty (no key is in it) start from docs/case-reference.yaml");
   EXPECT_EQ(message_of("# only a comment\n"),
             "c.yaml:1: the case is empty (no key is in it) start from docs/case-reference.yaml");
@@ -358,8 +363,9 @@ TEST(MalformedCase, NotYaml) {
             "c.yaml:1: not a case (it is a list where keys are wanted) start from docs/case-reference.yaml");
   EXPECT_EQ(message_of(std::string("\x89HDF\r\n\x1a\n", 8)),
             "c.yaml:2: not a text file (it holds control characters) give a case file in YAML");
+  EXPECT_EQ(message_of("---\n" + sound), "accepted");
   EXPECT_EQ(message_of(sound + "---\n" + sound),
-            "c.yaml:19: a second YAML document begins (a file holds one case) move it to a file of its own");
+            "c.yaml:18: a second YAML document begins (a file holds one case) move it to a file of its own");
 }
 
 TEST(MalformedCase, BombsGoOffQuickly) {
