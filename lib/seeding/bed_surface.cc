@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/error.hh"
 
@@ -9,6 +10,7 @@ namespace lgiw {
 
 namespace {
 
+constexpr double most_columns = 2e8;  // about 4 GB
 constexpr double steepest_slope = 8;  // of a profile, within less than dp; beyond it is a step
 
 std::vector<Point2> local_profile(const Case& c, const TerrainModel& model, const MapCells& cells) {
@@ -46,6 +48,11 @@ MapCells map_cells(const Case& c, const TerrainModel& model) {
   cells.rim = int64_t(std::ceil(2 * c.numerics.h_over_dp - 1e-9));
   cells.rim_y = cells.two_d ? 0 : cells.rim;
   if (cells.two_d) cells.y_low = 0;
+  const double columns = double(cells.nx) * double(cells.ny);
+  LGIW_VALIDATE(columns < most_columns, "particle_spacing " + std::to_string(c.dp) + " m is too small for this terrain",
+                "the map alone has " + std::to_string(int64_t(columns)) + " columns of particles, at most " +
+                    std::to_string(int64_t(most_columns)) + " can be held",
+                "Choose a larger spacing or a smaller terrain.window");
   return cells;
 }
 

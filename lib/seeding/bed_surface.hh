@@ -32,6 +32,7 @@ struct MapCells {
   double y_high() const { return two_d ? 0.0 : y_low + double(ny) * dp; }
 };
 
+/// Throws InputError for more columns than fit into memory.
 MapCells map_cells(const Case& c, const TerrainModel& model);
 
 /// Height of the bed (or of the ground) at any point, in local coordinates; outside the domain that of the nearest

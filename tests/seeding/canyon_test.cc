@@ -1,6 +1,7 @@
 // The real canyon of the demo: volumes against the terrain's, spacing and walls on rough ground.
 #include <algorithm>
 
+#include "base/error.hh"
 #include "gtest/gtest.h"
 #include "scene.hh"
 
@@ -29,6 +30,23 @@ TEST(Canyon, ReservoirVolumeOfTheWholeDem) {
   EXPECT_NEAR(r.max_water_depth, 151, 1.5);
   EXPECT_GT(r.counts.wall_left_out, r.counts.wall / 2);  // high ground
   EXPECT_EQ(r.counts.soil, 0);
+}
+
+TEST(Canyon, TooFineASpacingIsRefusedBeforeMemoryIsTaken) {
+  const Case c = parse_case(canyon(0.1, ""), "canyon");
+  Provenance provenance;
+  const TerrainModel model = build_terrain(c, provenance);
+  try {
+    Seeder seeder(c, model);
+    FAIL() << "2.9e9 columns";
+  } catch (const InputError& e) {
+    EXPECT_EQ(
+        std::string(e.what()).rfind("particle_spacing 0.100000 m is too small for this terrain (the map alone has "
+                                    "2880000000 columns",
+                                    0),
+        0u)
+        << e.what();
+  }
 }
 
 TEST(Canyon, SlideVolumeAndSpacing) {
