@@ -306,8 +306,10 @@ class ParticleSimulation final : public Simulation {
       for (std::size_t i = 0; i < n; ++i) position[i] = P(in.water_x[3 * i + axis(k)]);
       put(water_.position[k], position);
       if (two_positions) water_.x[k] = Array<T>(n);
-      water_.v[k] = zeros<T>(n), water_.a[k] = zeros<T>(n);
-      if (p_.verlet) water_.v_previous[k] = zeros<T>(n);
+      const std::vector<T> v = component(in.water_v, n, k);
+      put(water_.v[k], v);
+      if (p_.verlet) put(water_.v_previous[k], v);
+      water_.a[k] = zeros<T>(n);
     }
     std::vector<T> excess(in.water_excess.begin(), in.water_excess.end());
     put(water_.excess, excess);
@@ -327,8 +329,10 @@ class ParticleSimulation final : public Simulation {
       for (std::size_t i = 0; i < n; ++i) position[i] = P(in.soil_x[3 * i + axis(k)]);
       put(soil_.position[k], position);
       if (two_positions) soil_.x[k] = Array<T>(n);
-      soil_.v[k] = zeros<T>(n), soil_.a[k] = zeros<T>(n);
-      if (p_.verlet) soil_.v_previous[k] = zeros<T>(n);
+      const std::vector<T> v = component(in.soil_v, n, k);
+      put(soil_.v[k], v);
+      if (p_.verlet) put(soil_.v_previous[k], v);
+      soil_.a[k] = zeros<T>(n);
     }
     std::vector<T> stress(n);
     for (int c = 0; c < S; ++c) {
@@ -487,6 +491,12 @@ class ParticleSimulation final : public Simulation {
   }
   void convert(Array<T>& to, const Array<P>& from) {
     backend_.for_each(int(to.size()), Convert<T, P>{to.data(), from.data()});
+  }
+  /// Component k of interleaved vectors; zeros where there are none.
+  static std::vector<T> component(const std::vector<float>& values, std::size_t n, int k) {
+    std::vector<T> out(n, T(0));
+    if (!values.empty()) for (std::size_t i = 0; i < n; ++i) out[i] = T(values[3 * i + axis(k)]);
+    return out;
   }
   static std::vector<unsigned> ids(std::size_t n) {
     std::vector<unsigned> id(n);

@@ -11,10 +11,12 @@ namespace lgiw {
 // On the CPU a pair loop computes every candidate of a row, the kernel being zero outside its support, so that it
 // vectorises; on a device a far candidate is skipped at once.
 #if defined(__CUDA_ARCH__)
-#define LGIW_PAIR_LOOP
+#define LGIW_PAIR_LOOP _Pragma("unroll 1")
+#define LGIW_ROW_LOOP _Pragma("unroll 1")
 #define LGIW_SKIP_FAR(r2, support2) if (r2 >= support2) continue
 #else
 #define LGIW_PAIR_LOOP _Pragma("GCC ivdep")
+#define LGIW_ROW_LOOP
 #define LGIW_SKIP_FAR(r2, support2) (void)0
 #endif
 
@@ -185,6 +187,7 @@ struct WaterRates : Pass<Tr> {
     const auto& p = this->parameters;
     const T e_i = w.excess[i];
     T rate = 0;
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(w.start, cell, k, begin, end);
@@ -217,6 +220,7 @@ struct WaterRates : Pass<Tr> {
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
     if (this->wall.n) {
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(this->wall.start, cell, k, begin, end);
@@ -231,6 +235,7 @@ struct WaterRates : Pass<Tr> {
     }
     if (this->soil.n) {
       T sum = 0;
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(this->soil.start, cell, k, begin, end);
@@ -285,6 +290,7 @@ struct WallVelocities : Pass<Tr> {
     const V x = B::load(b.x, i);
     V sum{};
     T weight = 0;
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(s.start, cell, k, begin, end);
@@ -322,6 +328,7 @@ struct SoilRates : Pass<Tr> {
                          Stress<T, D>& smoothing) const {
     const auto& s = this->soil;
     const auto& p = this->parameters;
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(s.start, cell, k, begin, end);
@@ -363,6 +370,7 @@ struct SoilRates : Pass<Tr> {
     else
       over_soil<false>(cell, x, v, sigma, p.static_stress_dry, l, smoothing);
     if (this->wall.n) {
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(this->wall.start, cell, k, begin, end);
@@ -414,6 +422,7 @@ struct WaterImage : Pass<Tr> {
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
     V moment{};
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(w.start, cell, k, begin, end);
@@ -462,6 +471,7 @@ struct WallImages : WaterImage<Tr> {
     Stress<T, D> sum;
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
     T weight = 0, moment = 0;
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(s.start, cell, k, begin, end);
@@ -532,6 +542,7 @@ struct WaterForces : Pass<Tr> {
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
     V a{};
     T mu_max = 0;
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(w.start, cell, k, begin, end);
@@ -548,6 +559,7 @@ struct WaterForces : Pass<Tr> {
       }
     }
     if (this->wall.n) {
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(this->wall.start, cell, k, begin, end);
@@ -565,6 +577,7 @@ struct WaterForces : Pass<Tr> {
     }
     a = p.water_mass * a;
     if (this->soil.n) {
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(this->soil.start, cell, k, begin, end);
@@ -604,6 +617,7 @@ struct SoilForces : Pass<Tr> {
     const auto& s = this->soil;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const Stress<T, D> own = artificial ? B::load_stress(s.artificial, i) : Stress<T, D>{};
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(s.start, cell, k, begin, end);
@@ -648,6 +662,7 @@ struct SoilForces : Pass<Tr> {
       const auto& w = this->water;
       const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
       V sum{};
+      LGIW_ROW_LOOP
       for (int k = 0; k < Grid<T, D>::rows; ++k) {
         int begin, end;
         this->grid.row(w.start, cell, k, begin, end);
@@ -678,6 +693,7 @@ struct SoilForces : Pass<Tr> {
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const T viscosity_on = p.wall_viscosity ? T(1) : T(0);
     V bed{}, slipping{}, into_wall{};
+    LGIW_ROW_LOOP
     for (int k = 0; k < Grid<T, D>::rows; ++k) {
       int begin, end;
       this->grid.row(b.start, cell, k, begin, end);

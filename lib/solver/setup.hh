@@ -45,6 +45,7 @@ struct InitialParticles {
   std::vector<float> soil_stress;               // [n,6] xx yy zz xy yz xz
   std::vector<float> wall_normal, wall_volume;  // [n,3], [n]
   std::vector<uint8_t> wall_kind;
+  std::vector<float> water_v, soil_v;           // [n,3], or empty: at rest
   std::size_t n_water() const { return water_x.size() / 3; }
   std::size_t n_soil() const { return soil_x.size() / 3; }
   std::size_t n_wall() const { return wall_x.size() / 3; }

@@ -1,0 +1,171 @@
+// Runs the passes on a CUDA device. Holds launches and memory only; the physics is in lib/physics and lib/solver/passes.hh.
+#pragma once
+
+#include <cub/device/device_radix_sort.cuh>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "base/error.hh"
+#include "solver/passes.hh"
+
+namespace lgiw {
+
+inline void check_cuda(cudaError_t status, const char* what) {
+  if (status == cudaSuccess) return;
+  const std::string why = cudaGetErrorString(status);
+  if (status == cudaErrorMemoryAllocation)
+    throw WorkError("the CUDA device has too little memory", std::string(what) + ": " + why,
+                    "use a coarser particle spacing, single precision or --backend cpu");
+  throw WorkError("the CUDA device failed", std::string(what) + ": " + why, "run again, or use --backend cpu");
+}
+
+template <class F>
+__global__ void run_each(int n, F f) {
+  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
+  if (i < n) f(i);
+}
+template <class F>
+__global__ void run_once(F f) { f(0); }
+
+/// Limits are never negative, so that their bits order like integers and a maximum is one integer atomic.
+__device__ inline void raise(float* to, float value) {
+  atomicMax(reinterpret_cast<int*>(to), __float_as_int(value));
+}
+__device__ inline void raise(double* to, double value) {
+  atomicMax(reinterpret_cast<long long*>(to), __double_as_longlong(value));
+}
+template <class T, class F>
+__global__ void run_limits(int n, F f, Limits<T>* limits) {
+  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
+  Limits<T> mine;
+  if (i < n) mine = f(i);
+  for (int lane = 16; lane > 0; lane /= 2) {
+    mine.acceleration2 = largest(mine.acceleration2, __shfl_xor_sync(0xffffffffu, mine.acceleration2, lane));
+    mine.mu = largest(mine.mu, __shfl_xor_sync(0xffffffffu, mine.mu, lane));
+  }
+  if ((threadIdx.x & 31) == 0) {
+    raise(&limits->acceleration2, mine.acceleration2);
+    raise(&limits->mu, mine.mu);
+  }
+}
+template <class T>
+__global__ void gather_kernel(int n, T* to, const T* from, const int* order) {
+  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
+  if (i < n) to[i] = from[order[i]];
+}
+static __global__ void iota_kernel(int n, int* to) {
+  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
+  if (i < n) to[i] = i;
+}
+/// start[c] = index of the first sorted key that is not less than c, for c = 0 ... cells.
+static __global__ void cell_starts_kernel(int n, const int* key, int cells, int* start) {
+  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
+  if (i > n) return;
+  const int low = i == 0 ? 0 : key[i - 1] + 1, high = i == n ? cells : (key[i] < cells ? key[i] : cells);
+  for (int c = low; c <= high; ++c) start[c] = i;
+}
+
+struct CudaBackend {
+  static constexpr bool on_host = false;
+  // The host looks at the clock of the run only so often; steps queued beyond the target change nothing (Pass::idle).
+  static constexpr int steps_per_check = 16;
+  static constexpr int block = 128;
+
+  template <class T>
+  class Array {
+   public:
+    Array() = default;
+    explicit Array(std::size_t n) : size_(n) {
+      if (n) check_cuda(cudaMalloc(reinterpret_cast<void**>(&data_), n * sizeof(T)), "memory for particles");
+    }
+    ~Array() { if (data_) cudaFree(data_); }
+    Array(Array&& o) noexcept { swap(o); }
+    Array& operator=(Array&& o) noexcept { swap(o); return *this; }
+    void swap(Array& o) noexcept { std::swap(data_, o.data_); std::swap(size_, o.size_); }
+    T* data() const { return data_; }
+    std::size_t size() const { return size_; }
+
+   private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+  };
+
+  template <class T>
+  void upload(const Array<T>& to, const T* from) {
+    if (to.size()) check_cuda(cudaMemcpy(to.data(), from, to.size() * sizeof(T), cudaMemcpyHostToDevice), "copy to the device");
+  }
+  template <class T>
+  void download(T* to, const Array<T>& from) const {
+    if (from.size())
+      check_cuda(cudaMemcpy(to, from.data(), from.size() * sizeof(T), cudaMemcpyDeviceToHost), "copy from the device");
+  }
+  template <class T>
+  void zero(const Array<T>& a) {
+    if (a.size()) check_cuda(cudaMemset(a.data(), 0, a.size() * sizeof(T)), "clearing memory");
+  }
+
+  static int blocks(int n) { return (n + block - 1) / block; }
+  static void launched(const char* what) { check_cuda(cudaGetLastError(), what); }
+  template <class F>
+  void for_each(int n, const F& f) {
+    if (n == 0) return;
+    run_each<<<blocks(n), block>>>(n, f);
+    launched("a pass");
+  }
+  template <class F>
+  void single(const F& f) {
+    run_once<<<1, 1>>>(f);
+    launched("bookkeeping");
+  }
+  template <class T, class F>
+  void for_each_limits(int n, const F& f, Limits<T>* limits) {
+    if (n == 0) return;
+    run_limits<T><<<blocks(n), block>>>(n, f, limits);
+    launched("a pass");
+  }
+
+  /// Stable radix sort by key. The keys come out sorted as well; Motion sets them anew before the next sort.
+  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
+    const int n = int(key.size());
+    if (n == 0) return;
+    if (sorted_key_.size() < key.size()) sorted_key_ = Array<int>(key.size()), identity_ = Array<int>(key.size());
+    iota_kernel<<<blocks(n), block>>>(n, identity_.data());
+    int bits = 1;
+    while (bits < 31 && (cells >> bits) > 0) ++bits;
+    std::size_t bytes = 0;
+    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, key.data(), sorted_key_.data(), identity_.data(), order.data(),
+                                               n, 0, bits), "sort");
+    if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
+    check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, key.data(), sorted_key_.data(), identity_.data(),
+                                               order.data(), n, 0, bits), "sort");
+    check_cuda(cudaMemcpyAsync(key.data(), sorted_key_.data(), n * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
+    cell_starts_kernel<<<blocks(n + 1), block>>>(n, sorted_key_.data(), cells, start.data());
+    launched("sort");
+  }
+  template <class T>
+  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
+    const int n = int(from.size());
+    if (n == 0) return;
+    gather_kernel<<<blocks(n), block>>>(n, to.data(), from.data(), order.data());
+    launched("sort");
+  }
+  /// Phases are timed by what the host waits for: with queued launches the shares are those of launching.
+  double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  void wait() const { check_cuda(cudaDeviceSynchronize(), "a step"); }
+  std::string name() const {
+    cudaDeviceProp p;
+    int device = 0;
+    if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&p, device) != cudaSuccess) return "CUDA";
+    return std::string("CUDA, ") + p.name;
+  }
+
+ private:
+  Array<int> sorted_key_, identity_;
+  Array<unsigned char> work_;
+};
+
+}  // namespace lgiw
