@@ -103,7 +103,7 @@ std::vector<Station> section_stations(const Section& section, const std::array<d
     const Point2 p = section.points[leg], q = section.points[leg + 1];
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
     // Stations lie at whole multiples of the spacing along the whole line.
-    for (double k = std::ceil(start / spacing - 1e-9);; ++k) {
+    for (double k = std::max(0.0, std::ceil(start / spacing - 1e-9));; ++k) {
       const double s = k * spacing - start;
       if (s > length - 1e-9 * spacing) break;
       const double a = std::max(0.0, s) / length;

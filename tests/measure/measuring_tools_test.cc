@@ -93,6 +93,7 @@ TEST_F(MeasuringTools, GaugesPeaksRunupAndSummary) {
 
   const json summary = json::parse(read_bytes(shop / "s.json"));
   EXPECT_DOUBLE_EQ(summary["runup_m"], 4);
+  EXPECT_DOUBLE_EQ(summary["still_water_level_m"], 510);
   EXPECT_EQ(summary["sections"][0]["name"], "A");
   EXPECT_DOUBLE_EQ(summary["sections"][0]["time_of_runup_s"], 12);
   ASSERT_EQ(summary["gauges"].size(), 3u);
@@ -151,6 +152,7 @@ TEST_F(MeasuringTools, GaugesMapsAreGeoreferenced) {
         CE_None);
     return result;
   };
+  EXPECT_FLOAT_EQ(value("ground.tif", 42, 3), 512);
   EXPECT_FLOAT_EQ(value("max_elevation.tif", 20, 3), 512);
   EXPECT_FLOAT_EQ(value("max_elevation.tif", 42, 3), 514);
   EXPECT_FLOAT_EQ(value("max_depth.tif", 42, 3), 2);
@@ -193,11 +195,10 @@ TEST_F(MeasuringTools, RerunsAreByteIdentical) {
 }
 
 TEST_F(MeasuringTools, GaugesRefusals) {
-  expect_refused("gauges none.h5", shop.run("gauges none.h5").err.substr(0, shop.run("gauges none.h5").err.size() - 1));
-  EXPECT_NE(shop.run("gauges none.h5").err.find("gauges: none.h5"), std::string::npos);
+  expect_refused("gauges none.h5",
+                 "gauges: cannot open 'none.h5' (No such file or directory) see that the name is right");
   write_bytes(shop / "text.h5", "this is no run");
-  EXPECT_NE(shop.run("gauges text.h5").err.find("text.h5"), std::string::npos);
-  EXPECT_EQ(shop.run("gauges text.h5").status, 2);
+  expect_refused("gauges text.h5", "gauges: cannot open 'text.h5' (it is not an HDF5 file) see that the name is right");
   expect_refused(
       "gauges run.h5 --gauge P,2000,20",
       "gauges: gauge P at x = 2000, y = 20 lies outside the run (its domain is x from 1000 to 1100 and y from 0 to "
@@ -307,6 +308,78 @@ TEST_F(MeasuringTools, DepositVolumeRefusals) {
   EXPECT_EQ(shop.run("deposit-volume").status, 2);
   // Water alone has gauges and run-up all the same.
   EXPECT_DOUBLE_EQ(json::parse(shop.run("gauges water.h5 -q --json").out)["runup_m"], 4);
+}
+
+TEST_F(MeasuringTools, SectionWithoutAnOppositeBankIsTold) {
+  std::string text = basin_case;
+  text.replace(text.find("[1096, 20]"), 10, "[1050, 20]");
+  write_bytes(shop / "short.yaml", text);
+  const Outcome outcome = shop.run("gauges run.h5 --json --case short.yaml");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err,
+            "gauges: section A has no opposite bank (it does not run from the lake to dry land above its level) let it "
+            "end there\n");
+  EXPECT_TRUE(json::parse(outcome.out)["runup_m"].is_null());
+}
+
+TEST_F(MeasuringTools, TwoDimensionsAndSoilAlone) {
+  // A slab of soil 20 m long and 10 m high that slides by 6 m along a flat bed; no water, no sections.
+  RunHeader header;
+  ParticleHeader& p = header.particles;
+  p.dimension = 2, p.dp = 2;
+  p.still_water_level = NAN;
+  p.low = {0, -1, -10}, p.high = {60, 1, 40};
+  p.bed.nx = 61, p.bed.ny = 1, p.bed.dx = 1, p.bed.z.assign(61, 0.0);
+  p.case_text =
+      "name: slab\ndimension: 2\nparticle_spacing: 2\nterrain: {profile: [[0, 0], [60, 0]]}\n"
+      "slide: {bodies: [[[4, 0], [24, 0], [24, 10], [4, 10]]]}\nsoil: {friction_angle: 20}\n";
+  p.provenance = "{}";
+  header.particle_volume = 4, header.left_out = "[]";
+  header.map.nx = 31, header.map.ny = 1, header.map.dx = 2;
+  for (int k = 0; k < 5; ++k)
+    for (int i = 0; i < 10; ++i)
+      header.initial_soil.insert(header.initial_soil.end(), {4 + 2 * float(i) + 1, 0, 2 * float(k) + 1});
+  p.counts.soil = 50;
+  RunWriter writer((shop / "slab.h5").string(), header);
+  for (double t : {0.0, 2.0}) {
+    Frame frame;
+    frame.time = t, frame.points = header.initial_soil;
+    for (std::size_t k = 0; k < 50; ++k) frame.points[3 * k] += float(3 * t);
+    frame.velocity.assign(150, 0), frame.adps.assign(50, float(t)), frame.lost.assign(50, 0);
+    writer.add_frame(frame);
+    std::vector<float> soil(31, NAN);
+    for (std::size_t n = 0; n < 31; ++n)
+      if (double(n) * 2 >= 4 + 3 * t && double(n) * 2 <= 24 + 3 * t) soil[n] = float(10 - t);
+    writer.add_surface(t, {}, soil);
+  }
+  writer.close();
+
+  const Outcome series = shop.run("gauges slab.h5 -q --no-provenance --gauge S1,16 --gauge S2,6");
+  expect_quiet_success(series, "gauges slab.h5");
+  EXPECT_EQ(series.out, "time_s,S1,S2\n0,10,10\n2,8,nan\n");
+  make("deposit-volume slab.h5 -q --no-provenance -o d.csv --profiles p.csv --at last --summary s.json");
+  const json summary = json::parse(read_bytes(shop / "s.json"));
+  EXPECT_DOUBLE_EQ(summary["slide_volume_m3"], 200);
+  EXPECT_TRUE(summary["immersed_volume_m3"].is_null());
+  EXPECT_NEAR(summary["deposit"]["length_m"].get<double>(), 20, 1e-4);
+  EXPECT_TRUE(summary["deposit"]["width_m"].is_null());
+  EXPECT_NEAR(summary["deposit"]["direction_deg"].get<double>(), 90, 1e-9);
+  EXPECT_NEAR(summary["deposit"]["runout_of_centre_m"].get<double>(), 6, 1e-4);
+  const auto profile = lines_of(read_bytes(shop / "p.csv"));
+  ASSERT_EQ(profile.size(), 32u);  // the whole domain, 60 m every 2 m
+  EXPECT_EQ(profile[1], "profile,2,0,0,0,0,0,nan,nan,nan");
+  EXPECT_EQ(profile[11].substr(0, 21), "profile,2,20,20,0,0,0");
+  EXPECT_NEAR(std::stod(profile[11].substr(22)), 10, 0.05);
+
+  expect_refused("gauges slab.h5 -q --maps maps",
+                 "gauges: --maps is for 3-D runs (slab.h5 is 2-D) leave it out; --runup has the run-up");
+  expect_refused("gauges slab.h5 -q --runup r.csv",
+                 "gauges: slab.h5 has no water (there is no run-up and no wave to map) leave out --maps and --runup");
+  expect_refused("gauges slab.h5 -q",
+                 "gauges: there is no gauge (the case names none) add gauges to the case or pass --gauge name,x,y");
+  expect_refused(
+      "deposit-volume slab.h5 --thickness t.tif",
+      "deposit-volume: --thickness is for 3-D runs (slab.h5 is 2-D) leave it out; --profiles has the deposit");
 }
 
 TEST_F(MeasuringTools, HelpAndVersion) {

@@ -25,6 +25,9 @@ namespace {
 using namespace lgiw;
 using nlohmann::ordered_json;
 
+const std::string hdf5_version =
+    std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
+
 struct Options {
   std::string run, case_file, output, profiles, thickness, summary;
   std::vector<std::string> at{"first", "last"};
@@ -213,7 +216,7 @@ int main(int argc, char** argv) {
   app.add_option("--summary", options.summary, "Volumes, speeds and shape of the deposit as JSON")
       ->type_name("FILE")
       ->group(outputs);
-  const std::string versions = std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + H5_VERS_INFO;
+  const std::string versions = std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version;
   add_common_options(app, options.common, versions);
   app.footer(
       "Example:\n  deposit-volume run.h5 -o slide.csv --thickness thickness.tif --profiles profiles.csv --at "

@@ -29,6 +29,9 @@ namespace {
 using namespace lgiw;
 using nlohmann::ordered_json;
 
+const std::string hdf5_version =
+    std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
+
 struct Options {
   std::string run, case_file, output, peaks, runup, netcdf, maps, summary;
   std::vector<std::string> gauges;
@@ -51,7 +54,7 @@ struct Measurements {
 std::string library_versions() {
   std::string netcdf = nc_inq_libvers();
   netcdf = netcdf.substr(0, netcdf.find(' '));
-  return std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + H5_VERS_INFO + ", netCDF " + netcdf;
+  return std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version + ", netCDF " + netcdf;
 }
 
 /// "name,x,y", in 2-D also "name,x".
@@ -212,7 +215,7 @@ int run(const Options& options, const std::string& command) {
                                                                                                  : "-";
   LGIW_VALIDATE(!gauges.series().empty() || (output.empty() && options.peaks.empty() && options.netcdf.empty()),
                 "there is no gauge", "the case names none", "add gauges to the case or pass --gauge name,x,y");
-  outputs.push_back(output);
+  outputs.insert(outputs.begin(), output);
   std::vector<std::string> inputs{options.run};
   if (!options.case_file.empty() && options.case_file != "-") inputs.push_back(options.case_file);
   check_outputs(outputs, inputs, options.common.overwrite, options.common.json);
