@@ -12,9 +12,9 @@ floor_z = low - 0.12 * (high - low)
 has(z) = z == z
 upper(bed, soil) = has(soil) ? soil : bed
 
-eval canvas(1500, 110 + 340 * down)
-set multiplot layout down, columns title case.": cross-sections" font ",17" margins 0.06, 0.985, 60.0 / (110 + 340 * down), \
-  1 - 75.0 / (110 + 340 * down) spacing 0.045, 0.055
+eval canvas(1500, 130 + 340 * down)
+set multiplot layout down, columns title case.": cross-sections" font ",17" margins 0.06, 0.985, 60.0 / (130 + 340 * down), \
+  1 - 95.0 / (130 + 340 * down) spacing 0.045, 0.055
 set tics front; set grid back
 do for [s in sections] {
   k = 0
@@ -23,7 +23,7 @@ do for [s in sections] {
     at(z) = strcol(1) eq s && strcol(2) eq t ? z : NaN
     if (k > words(times) - columns) { set xlabel "distance along section ".s." (m)" offset 0, 0.4 } else { unset xlabel }
     if (k % columns == 1) { set ylabel "elevation (m)" offset 1 } else { unset ylabel }
-    if (k == 1) { set key at screen 0.5, screen 1 - 52.0 / (110 + 340 * down) center center horizontal width 2 } else { unset key }
+    if (k == 1) { set key at screen 0.5, screen 1 - 64.0 / (130 + 340 * down) center center horizontal width 2 } else { unset key }
     set label 1 sprintf("%.1f s", real(t)) at graph 0.5, 0.92 center font ",15"
     set label 2 s at graph 0.01, 0.06 tc rgb red font ",15" front; set label 3 s."'" at graph 0.99, 0.06 right tc rgb red font ",15" front
     plot rows(table) using 3:(at($9)):(at(upper($7, $8))) with filledcurves fc rgb pale_blue title "water", \

@@ -1,0 +1,56 @@
+// What all four tools have in common on the command line.
+#include "tool_runner.hh"
+
+namespace lgiw::test {
+namespace {
+
+class EveryTool : public testing::TestWithParam<std::string> {
+ protected:
+  Workshop workshop_;
+};
+
+TEST_P(EveryTool, HelpGoesToStdoutAndEndsWithAnExample) {
+  const Outcome help = workshop_.run(GetParam() + " --help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.err, "");
+  EXPECT_NE(help.out.find("--output"), std::string::npos);
+  EXPECT_NE(help.out.find("--overwrite"), std::string::npos);
+  const std::size_t example = help.out.rfind("Example");
+  ASSERT_NE(example, std::string::npos) << help.out;
+  EXPECT_NE(help.out.find(GetParam(), example), std::string::npos) << help.out;
+}
+
+TEST_P(EveryTool, VersionNamesTheToolAndItsNumber) {
+  const Outcome version = workshop_.run(GetParam() + " --version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.err, "");
+  EXPECT_EQ(version.out.rfind(GetParam() + " 0.1.0 (git ", 0), 0u) << version.out;
+}
+
+TEST_P(EveryTool, UnknownFlagIsRefusedInOneLine) {
+  const Outcome outcome = workshop_.run(GetParam() + " input --frobnicate");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind(GetParam() + ": ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find("--frobnicate"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+  EXPECT_TRUE(workshop_.contents().empty());
+}
+
+TEST_P(EveryTool, NoArgumentsAreRefused) {
+  const Outcome outcome = workshop_.run(GetParam());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("required"), std::string::npos) << outcome.err;
+}
+
+std::string name_of(const testing::TestParamInfo<std::string>& tool) {
+  std::string name = tool.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tools, EveryTool, testing::Values("dem2particles", "lgiw-run", "gauges", "deposit-volume"),
+                         name_of);
+
+}  // namespace
+}  // namespace lgiw::test
