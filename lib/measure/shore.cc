@@ -33,14 +33,18 @@ std::vector<LimitNode> inundation_limit(const RunHeader& header, const std::vect
   for (std::size_t n = 0; n < map.size(); ++n) {
     if (std::isnan(max_elevation[n])) continue;
     bool at_limit = false, level = false;
+    const double still = header.particles.still_water_level, dp = header.particles.dp;
     for_neighbours(map, n, [&](std::size_t k) {
-      if (!std::isnan(max_elevation[k])) return;
+      // What is dry well below still level is full of soil, no land.
+      if (!std::isnan(max_elevation[k]) || !(ground[k] > still - dp)) return;
       at_limit = true;
-      level = level || ground[k] > max_elevation[n] - header.particles.dp;
+      level = level || ground[k] > max_elevation[n] - dp;
     });
+    // The water stood at still level before the wave.
+    const double reached = level ? std::max<double>(max_elevation[n], ground[n]) : ground[n];
     if (at_limit)
-      limit.push_back({map.x0 + double(n % map.nx) * map.dx, map.y0 + double(n / map.nx) * map.dx,
-                       level ? std::max<double>(max_elevation[n], ground[n]) : ground[n]});
+      limit.push_back(
+          {map.x0 + double(n % map.nx) * map.dx, map.y0 + double(n / map.nx) * map.dx, std::max(reached, still)});
   }
   return limit;
 }
