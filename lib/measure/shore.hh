@@ -25,9 +25,10 @@ struct ShorePoint {
 
 /// Maximum run-up at every point of the shorelines. The limit of inundation is made of the nodes that were wet with a
 /// neighbour that never was; each counts for the point of the shore nearest to it with the highest surface there,
-/// carried level to the dry neighbour unless that lies more than dp below it (then: with its ground). Shore points
-/// without such a node take the value of the node nearest to them, so that the line is continuous. max_elevation
-/// [ny,nx]: highest water surface, local z, NaN where never wet.
+/// carried level to the dry neighbour unless that lies more than dp below it (then: with its own ground), and at least
+/// still level. Neighbours that stay dry since they are full of soil, their ground more than dp below still level, are
+/// no land. Shore points without such a node take the value of the node nearest to them, so that the line is
+/// continuous. max_elevation [ny,nx]: highest water surface, local z, NaN where never wet.
 std::vector<std::vector<ShorePoint>> shore_runup(const RunHeader& header,
                                                  const std::vector<std::vector<std::array<double, 2>>>& lines,
                                                  const std::vector<float>& max_elevation);

@@ -74,6 +74,27 @@ TEST(Shore, RunupAlongIt) {
   }
 }
 
+TEST(Shore, SoilInTheLakeIsNoShore) {
+  const RunHeader header = basin_header();
+  const auto lines = shorelines(header, lake_at_rest(header, basin_water(header.map, 0)));
+  std::vector<float> highest = highest_water(header);
+  for (std::size_t n = 0; n < highest.size(); ++n) {
+    const std::size_t i = n % 51, j = n / 51;
+    if (i >= 8 && i <= 11 && j >= 9 && j <= 11) highest[n] = NAN;  // x from 16 to 22, y from 18 to 22
+  }
+  for (const auto& line : shore_runup(header, lines, highest))
+    for (const ShorePoint& p : line) EXPECT_NEAR(p.runup, p.x < 50 ? 1 : 4, 1e-4) << p.y;
+}
+
+TEST(Shore, RunupIsAtLeastStillLevel) {
+  const RunHeader header = basin_header();
+  std::vector<float> highest = basin_water(header.map, 100);  // the wave is gone
+  for (float& z : highest) z -= 0.3f;                         // and the surface measured a little low
+  const auto lines = shorelines(header, lake_at_rest(header, highest));
+  for (const auto& line : shore_runup(header, lines, highest))
+    for (const ShorePoint& p : line) EXPECT_DOUBLE_EQ(p.runup, 0);
+}
+
 TEST(Shore, HazardClasses) {
   RunHeader header = basin_header();
   header.map.nx = 6, header.map.ny = 1;
