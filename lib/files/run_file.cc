@@ -246,6 +246,9 @@ void RunWriter::add_diagnostics(double time, const std::vector<std::pair<std::st
       columns_.push_back(name);
       file_.create_dataset<double>("/lgiw/diagnostics/" + name, {0}, true, false, {series_chunk});
     }
+    // HDF5 gives the heap of a group with many members its place in the file at the next flush only: now, then, and not at
+    // a moment that differs from run to run.
+    file_.flush();
   }
   if (!std::equal(values.begin(), values.end(), columns_.begin(), columns_.end(),
                   [](const auto& value, const std::string& name) { return value.first == name; }))

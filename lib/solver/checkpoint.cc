@@ -83,7 +83,7 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& identity)
   LGIW_VALIDATE(c.identity == identity, path + " belongs to another run",
                 "particles, case, overrides or precision differ", "resume with those that wrote it");
   const auto counts = file.numbers_attribute("/", "Counts");
-  LGIW_VALIDATE(counts.size() == 4, path + " is damaged", "its counts are missing", "resume from the previous checkpoint");
+  LGIW_VALIDATE(counts.size() == 4, path + " is damaged", "its counts are missing", "it cannot be resumed from");
   c.outputs = int64_t(counts[0]), c.frames = int64_t(counts[1]);
   c.surfaces = int64_t(counts[2]), c.diagnostics = int64_t(counts[3]);
   c.wall_time = file.number_attribute("/", "WallTime");
@@ -101,24 +101,26 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& identity)
   for (std::size_t k = 0; k < n; ++k)
     c.arrays.push_back({file.text_attribute(array_path(k), "Name"), file.read<uint8_t>(array_path(k))});
   LGIW_VALIDATE(file.text_attribute("/", "Checksum") == digest(c), path + " is damaged", "its checksum is wrong",
-                "resume from the previous checkpoint");
+                "it cannot be resumed from");
   return c;
 }
 
 Checkpoint read_newest_checkpoint(const std::string& path, const std::string& identity, std::string* note) {
-  const std::string previous = previous_checkpoint(path);
-  std::string why = path + " does not exist";
-  if (std::filesystem::exists(path)) {
+  std::string why;
+  for (const std::string& candidate : {path, previous_checkpoint(path)}) {
+    if (!std::filesystem::exists(candidate)) {
+      if (candidate == path) why = path + " does not exist";
+      continue;
+    }
     try {
-      return read_checkpoint(path, identity);
-    } catch (const InputError& e) {
-      why = e.what();
+      Checkpoint c = read_checkpoint(candidate, identity);
+      if (note && !why.empty()) *note = "resuming from " + candidate + ": " + why;
+      return c;
+    } catch (const std::exception& e) {   // damage can also ask for more memory than there is
+      why += (why.empty() ? "" : "; ") + std::string(e.what());
     }
   }
-  if (!std::filesystem::exists(previous)) throw InputError("there is nothing to resume", why, "start the run without --resume");
-  Checkpoint c = read_checkpoint(previous, identity);
-  if (note) *note = "resuming from " + previous + " (" + why + ")";
-  return c;
+  throw InputError("there is nothing to resume", why, "start the run anew");
 }
 
 }  // namespace lgiw

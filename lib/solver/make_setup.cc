@@ -28,6 +28,11 @@ double greatest_soil_height(const ParticleBlock& soil, double dp) {
   return height;
 }
 
+/// Of the water, m/s: the case's own, which may be overridden, or the automatic one of the particles file.
+double sound_speed(const Case& c, const ParticleHeader& header) {
+  return c.water.sound_speed > 0 ? c.water.sound_speed : header.sound_speed;
+}
+
 double greatest_water_depth(const ParticleData& data) {
   double lowest = data.header.still_water_level;
   for (std::size_t i = 0; i < data.water.size(); ++i) lowest = std::min(lowest, data.water.points[3 * i + 2]);
@@ -57,7 +62,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
   const bool water = data.water.size() > 0, soil = data.soil.size() > 0;
   p.water_density = c.water.density;
   if (water) {
-    p.sound_speed = header.sound_speed;
+    p.sound_speed = sound_speed(c, header);
     p.water_alpha = c.water.viscosity_alpha;
     p.density_diffusion = c.water.density_diffusion;
     p.still_water_level = header.still_water_level;
@@ -101,7 +106,7 @@ InitialParticles make_particles(const Case& c, const ParticleData& data) {
   in.soil_stress = data.soil.stress;
   in.wall_normal = data.wall.normal, in.wall_volume = data.wall.volume, in.wall_kind = data.wall.kind;
   // From the pressure, whose single precision is finer than that of the density.
-  const EquationOfState<double> eos(c.water.density, data.header.sound_speed);
+  const EquationOfState<double> eos(c.water.density, sound_speed(c, data.header));
   in.water_excess.reserve(data.water.size());
   for (float pressure : data.water.pressure) in.water_excess.push_back(float(eos.excess(double(pressure))));
   return in;

@@ -1,6 +1,8 @@
 #include "solver/runner.hh"
 
+#include <fcntl.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -88,7 +90,10 @@ class Runner {
     per_frame_ = std::max<int64_t>(1, std::llround(frames / surface_interval_));
     surface_interval_ = frames / double(per_frame_);
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
+    last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
     identity_ = identity(data);
+    if (options.resume) resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
+    else refuse_unfinished();
     initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
     simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
     log("model: " + simulation_->description());
@@ -99,33 +104,15 @@ class Runner {
   std::string run() {
     SignalGuard guard;
     start_ = Clock::now();
-    if (options_.resume) {
-      resume();
-    } else {
-      open();
+    if (options_.resume) resume();
+    else open();
+    checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
+    if (outputs_ == 0) {
       settle();
       record();
     }
-    const int64_t last = std::max<int64_t>(1, std::llround(case_.output.end_time / surface_interval_));
-    const auto loop_start = Clock::now();
-    const int64_t first_step = simulation_->state().step;
-    double checkpoint_at = elapsed() + case_.output.checkpoint_interval;
-    while (outputs_ <= last) {
-      const double target = double(outputs_) * surface_interval_;
-      StepState st = simulation_->state();
-      while (st.time < target) {
-        st = simulation_->advance(target, 25);
-        check(st);
-        if (caught_signal) {
-          checkpoint();
-          throw Interrupted{caught_signal};
-        }
-        progress(st, first_step, loop_start);
-        if (elapsed() > checkpoint_at) {
-          checkpoint();
-          checkpoint_at = elapsed() + case_.output.checkpoint_interval;
-        }
-      }
+    while (outputs_ <= last_output_) {
+      advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time);
       record();
     }
     return finish();
@@ -135,6 +122,13 @@ class Runner {
   void log(const std::string& line) const {
     if (options_.log) options_.log(line);
   }
+  /// A new run would discard the checkpoint of another.
+  void refuse_unfinished() const {
+    const std::string path = checkpoint_path(options_.output);
+    LGIW_VALIDATE(options_.overwrite || !fs::exists(path), path + " exists",
+                  "it is the state of an unfinished run, which a new one would discard",
+                  "go on with --resume, or start anew with -O");
+  }
   double elapsed() const { return earlier_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   /// What must not change between a run and its resumption.
@@ -143,8 +137,9 @@ class Runner {
       return sha256_of_text(std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v[0])));
     };
     std::ostringstream s;
-    s << case_.text << '\n' << int(case_.numerics.precision) << hash(data.water.points) << hash(data.water.pressure)
-      << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points) << hash(data.wall.volume);
+    s << case_.text << '\n' << header_.case_text << '\n' << int(case_.numerics.precision) << ' ' << header_.sound_speed << hash(data.water.points) << hash(data.water.pressure)
+      << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points) << hash(data.wall.volume) << hash(data.wall.normal)
+      << hash(data.wall.kind);
     return sha256_of_text(s.str());
   }
 
@@ -164,6 +159,7 @@ class Runner {
   }
 
   void open() {
+    for (const std::string& path : checkpoints()) fs::remove(path);   // of an earlier run: no state of this one
     RunHeader h;
     h.particles = header_;
     h.particles.case_text = case_.text;
@@ -179,14 +175,10 @@ class Runner {
   void settle() {
     const double duration = case_.numerics.settle_time;
     if (!(duration > 0) || !header_.counts.water) return;
-    simulation_->settle(true);
-    StepState st = simulation_->state();
-    while (st.time < duration) {
-      st = simulation_->advance(duration, 25);
-      check(st);
-      if (caught_signal) throw Interrupted{caught_signal};
-      if (options_.progress) options_.progress(0, "settling, " + std::to_string(st.time).substr(0, 5) + " s");
-    }
+    if (!simulation_->state().settling) simulation_->settle(true);   // set in a resumed run
+    advance_to(duration);
+    const StepState st = simulation_->state();
+    extremes_["settle_steps"] = double(st.step);
     ParticleState s;
     simulation_->download(s);
     const auto rows = diagnose(model_, s, st, header_.bed);
@@ -198,9 +190,36 @@ class Runner {
     simulation_->settle(false);
   }
 
-  void check(const StepState& st) const {
+  /// Steps until the time is `target`, with checkpoints by the clock and on a signal.
+  void advance_to(double target) {
+    StepState st = simulation_->state();
+    while (st.time < target) {
+      const int64_t before = st.step;
+      const double since = elapsed();
+      st = simulation_->advance(target, batch_);
+      const double seconds = elapsed() - since;
+      check(st);
+      steps_taken_ += st.step - before, seconds_taken_ += seconds;
+      // As many steps at a stroke as keep signals and progress prompt.
+      if (seconds < 0.1) batch_ = std::min<int64_t>(2 * batch_, 1000);
+      else if (seconds > 0.4) batch_ = std::max<int64_t>(batch_ / 2, 1);
+      if (caught_signal) {
+        checkpoint();
+        throw Interrupted{caught_signal};
+      }
+      progress(st);
+      if (elapsed() > checkpoint_at_) {
+        checkpoint();
+        checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
+      }
+    }
+  }
+
+  void check(const StepState& st) {
     const bool water = st.failed_water != UINT32_MAX;
     if (!water && st.failed_soil == UINT32_MAX) return;
+    writer_->write_maxima(maxima_);
+    writer_->flush();
     ParticleState s;
     simulation_->download(s);
     const uint32_t id = water ? st.failed_water : st.failed_soil;
@@ -220,13 +239,13 @@ class Runner {
     throw WorkError(what.str(), why.str(), then.str());
   }
 
-  void progress(const StepState& st, int64_t first_step, Clock::time_point since) const {
+  void progress(const StepState& st) const {
     if (!options_.progress) return;
-    const double seconds = std::chrono::duration<double>(Clock::now() - since).count();
+    const double rate = double(steps_taken_) * double(header_.counts.total()) / std::max(seconds_taken_, 1e-9);
     char note[160];
-    std::snprintf(note, sizeof note, "t %.2f s, dt %.3g s (%s), %.2f M particle-steps/s", st.time, st.dt, limit_name(st.limit),
-                  seconds > 0 ? double(st.step - first_step) * double(header_.counts.total()) / seconds / 1e6 : 0.0);
-    options_.progress(std::min(1.0, st.time / case_.output.end_time), note);
+    std::snprintf(note, sizeof note, "%s %.2f s, dt %.3g s (%s), %.2f M particle-steps/s", st.settling ? "settling" : "t",
+                  st.time, st.dt, limit_name(st.limit), rate / 1e6);
+    options_.progress(st.settling ? 0 : std::min(1.0, st.time / case_.output.end_time), note);
   }
 
   /// Surface rasters, maxima and diagnostics of the present state, and every so often a frame.
@@ -262,7 +281,7 @@ class Runner {
       if (name.compare(0, 4, "max_") == 0) extremes_[name] = std::max(extremes_[name], value);
       else extremes_["last_" + name] = value;
 
-    if (outputs_ % per_frame_ == 0) {
+    if (outputs_ % per_frame_ == 0 || outputs_ == last_output_) {
       if (nw) {
         frame.pressure = s.water_pressure;
         frame.pressure.resize(nw + ns, 0.f);
@@ -312,16 +331,16 @@ class Runner {
   }
 
   void resume() {
-    std::string note;
-    Checkpoint c = read_newest_checkpoint(checkpoint_path(options_.output), identity_, &note);
-    if (!note.empty()) log(note);
+    if (!resume_note_.empty()) log(resume_note_);
+    Checkpoint c = std::move(resumed_);
     simulation_->restore(c.arrays);
     outputs_ = c.outputs, earlier_ = c.wall_time;
     extremes_ = std::move(c.extremes), maxima_ = std::move(c.maxima), initial_elevation_ = std::move(c.initial_elevation);
     writer_ = std::make_unique<RunWriter>(RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
     char line[120];
-    std::snprintf(line, sizeof line, "resumed at t = %.4f s, step %lld", simulation_->state().time,
-                  static_cast<long long>(simulation_->state().step));
+    const StepState st = simulation_->state();
+    std::snprintf(line, sizeof line, "resumed at %s %.4f s, step %lld", st.settling ? "settling time" : "t =", st.time,
+                  static_cast<long long>(st.step));
     log(line);
   }
 
@@ -350,19 +369,27 @@ class Runner {
     const nlohmann::ordered_json reproducible = j;
     // What differs from run to run: in the file only with provenance.
     j["wall_time_s"] = elapsed();
-    j["particle_steps_per_s"] = elapsed() > 0 ? double(st.step) * double(header_.counts.total()) / elapsed() : 0.0;
+    j["particle_steps_per_s"] =
+        (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(elapsed(), 1e-9);
     j["threads"] = omp_get_max_threads();
     for (const PhaseTime& t : simulation_->timings()) j["phase_seconds"][t.name] = t.seconds;
     writer_->write_summary((options_.provenance ? j : reproducible).dump(1));
-    writer_->flush();
     writer_->close();
     writer_.reset();
-    std::error_code ec;
-    fs::rename(partial_path(options_.output), options_.output, ec);
-    if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial_path(options_.output));
-    fs::remove(checkpoint_path(options_.output), ec);
-    fs::remove(previous_checkpoint(checkpoint_path(options_.output)), ec);
+    const std::string partial = partial_path(options_.output);
+    const int descriptor = ::open(partial.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
+    std::error_code ec(synced ? 0 : errno, std::generic_category());
+    if (descriptor >= 0) close(descriptor);
+    if (synced) fs::rename(partial, options_.output, ec);
+    if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial);
+    for (const std::string& path : checkpoints()) fs::remove(path, ec);
     return j.dump(1);
+  }
+
+  std::vector<std::string> checkpoints() const {
+    const std::string path = checkpoint_path(options_.output);
+    return {path, previous_checkpoint(path)};
   }
 
   const Case& case_;
@@ -375,9 +402,10 @@ class Runner {
   std::vector<float> initial_soil_, initial_elevation_;
   std::map<std::string, std::vector<float>> maxima_;
   std::map<std::string, double> extremes_;
-  std::string identity_;
-  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0;
-  int64_t per_frame_ = 1, outputs_ = 0;
+  std::string identity_, resume_note_;
+  Checkpoint resumed_;
+  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0;
+  int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -393,6 +421,7 @@ std::string checkpoint_path(const std::string& output) { return output + ".check
 
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s) {
   const ModelParameters p = make_model(c, data);
+  const auto simulation = make_cpu_simulation(p, make_particles(c, data), number_type(c.numerics.precision));
   double wave = p.sound_speed, alpha_c = p.water_alpha * p.sound_speed;
   if (data.soil.size()) {
     const double soil = SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density);
@@ -405,6 +434,8 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["case"] = c.name;
   j["particles"] = {{"water", data.header.counts.water}, {"soil", data.header.counts.soil},
                     {"wall", data.header.counts.wall}, {"left_out", data.header.counts.wall_left_out}};
+  j["left_out"] = simulation->left_out();
+  j["memory_bytes"] = simulation->bytes();
   j["time_step_s"] = dt;
   j["steps"] = std::llround(steps);
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;

@@ -17,7 +17,8 @@ struct RunOptions {
   std::function<void(const std::string&)> log;               // one line
 };
 
-/// What a run would cost: counts, memory, time step, steps, seconds at `particle_steps_per_s`.
+/// What a run would cost: counts, memory (of a simulation on the CPU, which is made but takes no step), time step, steps,
+/// seconds at `particle_steps_per_s`.
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s);
 
 /// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is complete;
