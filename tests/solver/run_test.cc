@@ -1,0 +1,390 @@
+// lgiw-run from a particles file to a run file: contents, manners, failures.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "files/run_file.hh"
+#include "gtest/gtest.h"
+#include "run_scenes.hh"
+
+namespace lgiw::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string quiet = " -q --backend cpu --no-provenance ";
+
+class Run : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { shop = std::make_unique<Workshop>(); }
+  static void TearDownTestSuite() { shop.reset(); }
+  /// The particles of `slide` or `dam`, and their run; made when first asked for.
+  static void particles(const std::string& name) {
+    if (exists(name + ".h5")) return;
+    ASSERT_TRUE(make_particles(*shop, name, name == "dam" ? dam_case : slide_case));
+  }
+  static void scene(const std::string& name) {
+    particles(name);
+    if (!exists(name + "-run.h5"))
+      expect_quiet_success(shop->run("lgiw-run " + name + ".h5 -o " + name + "-run.h5" + quiet + "--summary " + name +
+                                     ".json --diagnostics " + name + ".csv --xmf " + name + ".xmf"),
+                           name);
+  }
+  static json summary(const std::string& name) { return json::parse(read_bytes(*shop / (name + ".json"))); }
+  static bool exists(const std::string& name) { return fs::exists(*shop / name); }
+  /// What a run that must not have started leaves: nothing of the name `name`.h5.
+  static void expect_no_trace(const std::string& name) {
+    EXPECT_FALSE(exists(name + ".h5"));
+    EXPECT_FALSE(exists("." + name + ".partial.h5"));
+    EXPECT_FALSE(exists(name + ".h5.checkpoint"));
+  }
+
+  static std::unique_ptr<Workshop> shop;
+};
+std::unique_ptr<Workshop> Run::shop;
+
+TEST_F(Run, FramesSurfacesAndDiagnosticsAreThoseAskedFor) {
+  scene("slide");
+  const RunReader run((*shop / "slide-run.h5").string());
+  ASSERT_EQ(run.frame_count(), 5u);            // 0, 0.1 ... 0.4 s
+  ASSERT_EQ(run.surface_times().size(), 21u);  // 0, 0.02 ... 0.4 s
+  const auto rows = run.diagnostics();
+  ASSERT_EQ(rows.at("time").size(), 21u);
+  EXPECT_EQ(run.surface_times(), rows.at("time"));
+  for (std::size_t k = 0; k < 5; ++k) {
+    // Outputs come with the first step that reaches their time.
+    EXPECT_GE(run.frame_time(k), 0.1 * double(k));
+    EXPECT_LT(run.frame_time(k), 0.1 * double(k) + 2e-3);
+    EXPECT_EQ(run.frame_time(k), run.surface_times()[5 * k]);
+  }
+  const ParticleData before = read_particles((*shop / "slide.h5").string());
+  const ParticleCounts& counts = run.header().particles.counts;
+  EXPECT_EQ(counts.water, before.header.counts.water);
+  EXPECT_EQ(counts.soil, before.header.counts.soil);
+  const Frame first = run.frame(0);
+  for (std::size_t i = 0; i < before.water.points.size(); ++i)
+    EXPECT_EQ(first.points[i], float(before.water.points[i]));
+  for (std::size_t i = 0; i < before.soil.points.size(); ++i) {
+    EXPECT_EQ(first.points[before.water.points.size() + i], float(before.soil.points[i]));
+    EXPECT_EQ(run.header().initial_soil[i], float(before.soil.points[i]));
+  }
+  for (float v : first.velocity) EXPECT_EQ(v, 0);
+  for (std::size_t i = 0; i < before.water.size(); ++i)
+    EXPECT_NEAR(first.pressure[i], before.water.pressure[i], 0.1 + 1e-3 * before.water.pressure[i]);
+  for (std::size_t i = std::size_t(counts.water); i < first.pressure.size(); ++i) EXPECT_EQ(first.pressure[i], 0);
+
+  // The soil has gone down, by as much as its centre of mass says, and plastic strain is the soil's alone.
+  const Frame last = run.frame(4);
+  double fall = 0, strain = 0;
+  for (std::size_t i = std::size_t(counts.water); i < last.lost.size(); ++i) {
+    fall += double(first.points[3 * i + 2]) - double(last.points[3 * i + 2]);
+    strain = std::max(strain, double(last.adps[i]));
+  }
+  fall /= double(counts.soil);
+  EXPECT_GT(fall, 0.03);
+  EXPECT_LT(fall, 0.5 * 9.81 * 0.4 * 0.4);  // free fall
+  EXPECT_NEAR(rows.at("soil_z").front() - rows.at("soil_z").back(), fall, 1e-6);
+  EXPECT_GT(strain, 0.2);
+  EXPECT_NEAR(rows.at("max_adps").back(), strain, 1e-6);
+  EXPECT_TRUE(std::all_of(last.adps.begin(), last.adps.begin() + counts.water, [](float a) { return a == 0; }));
+  const double mass = 0.02 * 0.02 * (1000 * double(counts.water) + 2000 * double(counts.soil));
+  for (double m : rows.at("mass")) EXPECT_NEAR(m, mass, 1e-9 * mass);
+
+  // Maxima are those of the surfaces, no less.
+  const std::vector<float> elevation = run.maximum("elevation");
+  std::vector<float> highest(elevation.size(), NAN);
+  for (std::size_t k = 0; k < 21; ++k) {
+    const std::vector<float> surface = run.water_surface(k);
+    for (std::size_t i = 0; i < surface.size(); ++i) highest[i] = std::fmax(highest[i], surface[i]);
+  }
+  for (std::size_t i = 0; i < highest.size(); ++i)
+    EXPECT_TRUE(elevation[i] == highest[i] || (std::isnan(elevation[i]) && std::isnan(highest[i]))) << i;
+  EXPECT_GT(*std::max_element(elevation.begin(), elevation.end(),
+                              [](float a, float b) { return !(a >= b) && !std::isnan(b); }),
+            0.41f);
+  for (const char* name : {"depth", "speed", "arrival", "soil_speed"})
+    EXPECT_EQ(run.maximum(name).size(), elevation.size()) << name;
+}
+
+TEST_F(Run, SummaryHasWhatTheRunKnows) {
+  scene("slide");
+  const json s = summary("slide");
+  const RunReader run((*shop / "slide-run.h5").string());
+  const ParticleHeader particles = read_particle_header((*shop / "slide.h5").string());
+  EXPECT_EQ(s.at("case"), "slide");
+  EXPECT_EQ(s.at("particles").at("water"), particles.counts.water);
+  EXPECT_EQ(s.at("particles").at("soil"), particles.counts.soil);
+  EXPECT_EQ(s.at("particles").at("wall"), particles.counts.wall);
+  EXPECT_EQ(s.at("particles").at("left_out"), particles.counts.wall_left_out);
+  const auto rows = run.diagnostics();
+  EXPECT_EQ(s.at("steps"), int64_t(rows.at("step").back()));
+  EXPECT_EQ(s.at("end_time_s"), rows.at("time").back());
+  EXPECT_GT(s.at("wall_time_s"), 0);
+  const double rate = s.at("particle_steps_per_s"), seconds = s.at("wall_time_s");
+  EXPECT_NEAR(rate * seconds, double(s.at("steps")) * double(particles.counts.total()), 1e-6 * rate * seconds);
+  EXPECT_TRUE(s.at("left_out").is_array());
+  EXPECT_EQ(s.at("mass_error"), 0);
+  EXPECT_EQ(s.at("lost").at("water"), 0);
+  const auto largest = [&](const char* name) { return *std::max_element(rows.at(name).begin(), rows.at(name).end()); };
+  EXPECT_EQ(s.at("density_error"), largest("max_density_error"));
+  EXPECT_LT(s.at("density_error"), 0.02);
+  EXPECT_EQ(s.at("max_soil_speed_m_s"), largest("max_soil_speed"));
+  EXPECT_EQ(s.at("max_water_speed_m_s"), largest("max_water_speed"));
+  EXPECT_EQ(s.at("threads"), 2);
+
+  // In the file, without provenance, only what is the same in every run.
+  const json kept = json::parse(run.summary());
+  for (const char* name : {"wall_time_s", "particle_steps_per_s", "threads", "phase_seconds"})
+    EXPECT_FALSE(kept.contains(name)) << name;
+  for (const auto& [name, value] : kept.items()) EXPECT_EQ(value, s.at(name)) << name;
+
+  const std::string table = read_bytes(*shop / "slide.csv");
+  EXPECT_EQ(table.compare(0, 5, "time,"), 0);
+  EXPECT_EQ(lines(table), 22);
+}
+
+TEST_F(Run, EqualRunsAreEqualInEveryByte) {
+  scene("slide");
+  const std::string once = read_bytes(*shop / "slide-run.h5");
+  const auto again = [&](const std::string& options) {
+    expect_quiet_success(shop->run("lgiw-run slide.h5 -o again.h5 -O" + quiet + options), options);
+    return read_bytes(*shop / "again.h5");
+  };
+  EXPECT_TRUE(again("") == once) << "two runs";
+  EXPECT_TRUE(again("--threads 1") == once) << "one thread and two";
+  // Checkpoints, which flush the file at moments that depend on the clock, leave no trace but their interval in the
+  // case.
+  const std::string rare = again("--set output.checkpoint_interval=900");
+  const std::string often = again("--set output.checkpoint_interval=0.1");
+  ASSERT_EQ(rare.size(), often.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < rare.size(); ++i) different += rare[i] != often[i];
+  // "900" against "0.1", and the checksum (4 bytes) that HDF5 keeps of the header with the case.
+  EXPECT_LE(different, 7u);
+}
+
+TEST_F(Run, EndsAtTheEndTimeWithAFrame) {
+  particles("slide");
+  // 0.07 s is no multiple of 0.02 s, nor of 0.05 s.
+  expect_quiet_success(
+      shop->run("lgiw-run slide.h5 -o odd.h5" + quiet +
+                "--set output.end_time=0.07 --set output.frame_interval=0.05 --set output.surface_interval=0.025"),
+      "");
+  const RunReader run((*shop / "odd.h5").string());
+  ASSERT_EQ(run.frame_count(), 3u);
+  EXPECT_NEAR(run.frame_time(1), 0.05, 1e-3);
+  EXPECT_NEAR(run.frame_time(2), 0.07, 1e-3);
+  ASSERT_EQ(run.surface_times().size(), 4u);
+  EXPECT_NEAR(run.surface_times()[3], 0.07, 1e-3);
+}
+
+TEST_F(Run, WaveArrivesLaterFartherAndNeverBeforeRitter) {
+  scene("dam");
+  const RunReader run((*shop / "dam-run.h5").string());
+  const SurfaceMap& map = run.header().map;
+  ASSERT_EQ(map.nx, 150u);
+  const std::vector<float> arrival = run.maximum("arrival"), elevation = run.maximum("elevation"),
+                           depth = run.maximum("depth");
+  const double front = 2 * std::sqrt(9.81 * 0.2);  // of a dam break on a frictionless dry bed
+  std::size_t wet = 0;
+  float before = 0;
+  for (std::size_t i = 22; i < map.nx; ++i) {  // dry at the start, the edge of the column left aside
+    const double x = map.x0 + double(i) * map.dx;
+    EXPECT_EQ(std::isnan(arrival[i]), i > 22 && !(depth[i] > 0.0025f)) << x;
+    EXPECT_EQ(std::isnan(elevation[i]), std::isnan(depth[i])) << x;
+    if (std::isnan(arrival[i])) continue;
+    ++wet;
+    EXPECT_GE(arrival[i], before) << x;
+    // The surface of particles stands up to a kernel's reach ahead of them.
+    EXPECT_GE(arrival[i], (x - 0.2 - 3 * 0.01) / front) << x;
+    EXPECT_LT(elevation[i], 0.2f) << x;
+    before = arrival[i];
+  }
+  EXPECT_GT(wet, 60u);  // beyond x = 0.82 m in 0.6 s
+  EXPECT_LT(wet, std::size_t((0.6 * front + 0.03) / 0.01));
+  EXPECT_TRUE(std::isnan(arrival.back()));  // 1.5 m away
+  EXPECT_NEAR(elevation[5], 0.2, 0.01);     // where the column stood
+}
+
+TEST_F(Run, WhatLeavesThroughAnOpenSideIsCountedAndTheRunGoesOn) {
+  std::string near = dam_case;
+  near.replace(near.find("[1.5, 0]"), 8, "[0.6, 0]");
+  ASSERT_TRUE(make_particles(*shop, "near", near));
+  expect_quiet_success(
+      shop->run("lgiw-run near.h5 -o near-run.h5 --summary near.json" + quiet + "--set output.end_time=1"), "");
+  const json s = summary("near");
+  const RunReader run((*shop / "near-run.h5").string());
+  const Frame last = run.frame(run.frame_count() - 1);
+  const auto lost = std::count(last.lost.begin(), last.lost.end(), 1);
+  EXPECT_GT(lost, 100);
+  EXPECT_LT(lost, 400);
+  EXPECT_EQ(s.at("lost").at("water"), lost);
+  EXPECT_NEAR(s.at("mass_error"), double(lost) / 400, 1e-12);
+  EXPECT_NEAR(run.diagnostics().at("mass").back(), 0.1 * double(400 - lost),
+              1e-9);  // 0.01 m x 0.01 m x 1000 kg/m3 each
+  for (std::size_t i = 0; i < last.lost.size(); ++i)
+    if (last.lost[i]) {
+      EXPECT_NEAR(last.points[3 * i], 0.6, 1e-6);  // where it left
+      EXPECT_EQ(last.velocity[3 * i], 0);
+    }
+}
+
+TEST_F(Run, DivergenceNamesParticlePlaceAndLastGoodState) {
+  particles("dam");
+  // Water whose sound travels at 1.6 m/s cannot stay near its density in a flow of 2 m/s.
+  const Outcome bad = shop->run("lgiw-run dam.h5 -o bad.h5" + quiet +
+                                "--set water.sound_speed=1.6 --set output.checkpoint_interval=0.001" +
+                                " --set output.frame_interval=0.02");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_EQ(lines(bad.err), 1) << bad.err;
+  for (const char* part :
+       {"lgiw-run: the run diverged at t = 0.", "water particle ", " at x ", " has velocity (", "density ",
+        "the last good state is bad.h5.checkpoint", ".bad.partial.h5", "try a smaller numerics.cfl"})
+    EXPECT_NE(bad.err.find(part), std::string::npos) << part << " is not in " << bad.err;
+  EXPECT_FALSE(exists("bad.h5"));
+  EXPECT_TRUE(exists("bad.h5.checkpoint"));
+  // The frames up to there can be looked at.
+  const RunReader run((*shop / ".bad.partial.h5").string());
+  const double when = std::atof(bad.err.c_str() + bad.err.find("t = ") + 4);
+  EXPECT_GE(run.frame_count(), 2u);
+  EXPECT_EQ(run.frame_count(), std::size_t(when / 0.02) + 1);
+  EXPECT_EQ(run.summary(), "");
+
+  // A place that a person finds: inside the domain, within the water.
+  const double x = std::atof(bad.err.c_str() + bad.err.find(" at x ") + 6),
+               z = std::atof(bad.err.c_str() + bad.err.find(", z ") + 4);
+  EXPECT_GT(x, -0.01);
+  EXPECT_LT(x, 1.5);
+  EXPECT_GT(z, -0.01);
+  EXPECT_LT(z, 0.3);
+
+  // A new run with the same name does not take the old state for its own.
+  const Outcome refused = shop->run("lgiw-run dam.h5 -o bad.h5" + quiet);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("bad.h5.checkpoint exists"), std::string::npos) << refused.err;
+  const Outcome anew = shop->run("lgiw-run dam.h5 -o bad.h5 -O" + quiet + "--set water.sound_speed=0.2");
+  EXPECT_EQ(anew.status, 1);
+  EXPECT_EQ(anew.err.find("last good state"), std::string::npos) << anew.err;
+  EXPECT_FALSE(exists("bad.h5.checkpoint"));
+}
+
+TEST_F(Run, CudaWithoutADeviceIsExitThreeAndAutoFallsBack) {
+  particles("dam");
+  const Outcome version = shop->run("lgiw-run --version");
+  if (version.out.find("CUDA backend: yes") != std::string::npos) GTEST_SKIP() << "a CUDA device is at hand";
+  const Outcome cuda = shop->run("lgiw-run dam.h5 -o cuda.h5 --backend cuda");
+  EXPECT_EQ(cuda.status, 3);
+  EXPECT_EQ(lines(cuda.err), 1) << cuda.err;
+  EXPECT_NE(cuda.err.find("CUDA"), std::string::npos);
+  expect_no_trace("cuda");
+  const Outcome fallback = shop->run(
+      "lgiw-run dam.h5 -o auto.h5 --set output.end_time=0.01 --set output.frame_interval=0.01 --set "
+      "output.surface_interval=0.01");
+  EXPECT_EQ(fallback.status, 0);
+  EXPECT_NE(fallback.err.find("lgiw-run: no CUDA device ("), std::string::npos) << fallback.err;
+  EXPECT_NE(fallback.err.find("running on the CPU"), std::string::npos);
+  EXPECT_TRUE(exists("auto.h5"));
+}
+
+TEST_F(Run, DryRunPrintsAPlanAndWritesNothing) {
+  scene("slide");
+  const auto before = shop->contents();
+  const Outcome dry = shop->run("lgiw-run slide.h5 -o dry.h5 --dry-run --rate 1e6");
+  EXPECT_EQ(dry.status, 0);
+  EXPECT_EQ(dry.err, "");
+  EXPECT_EQ(shop->contents().size(), before.size());
+  const json plan = json::parse(dry.out), s = summary("slide");
+  EXPECT_EQ(plan.at("particles"), s.at("particles"));
+  EXPECT_EQ(plan.at("left_out"), s.at("left_out"));
+  EXPECT_EQ(plan.at("memory_bytes"), s.at("bytes"));
+  EXPECT_NEAR(double(plan.at("steps")), double(s.at("steps")), 0.2 * double(s.at("steps")));
+  const double total = double(s.at("particles").at("water")) + double(s.at("particles").at("soil")) +
+                       double(s.at("particles").at("wall"));
+  EXPECT_NEAR(plan.at("estimated_run_time_s"), 0.4 / double(plan.at("time_step_s")) * total / 1e6, 1e-9);
+}
+
+TEST_F(Run, SoundSpeedCanBeOverridden) {
+  particles("dam");
+  const auto steps = [&](const std::string& options) {
+    return double(json::parse(shop->run("lgiw-run dam.h5 --dry-run " + options).out).at("time_step_s"));
+  };
+  const double automatic = read_particle_header((*shop / "dam.h5").string()).sound_speed;
+  EXPECT_NEAR(steps("--set water.sound_speed=100") / steps(""), automatic / 100, 1e-9);
+}
+
+TEST_F(Run, ExistingOutputsAreRefused) {
+  scene("dam");
+  const std::string before = read_bytes(*shop / "dam-run.h5");
+  for (const std::string call : {"-o dam-run.h5", "-o new.h5 --summary dam.json", "-o new.h5 --diagnostics dam.csv",
+                                 "-o new.h5 --xmf dam.xmf"}) {
+    const Outcome refused = shop->run("lgiw-run dam.h5 " + call);
+    EXPECT_EQ(refused.status, 2) << call;
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find(" exists (it would be overwritten) use -O"), std::string::npos) << refused.err;
+  }
+  EXPECT_TRUE(read_bytes(*shop / "dam-run.h5") == before);
+  expect_no_trace("new");
+}
+
+TEST_F(Run, BadParticlesFilesAreOneLineAndNoTrace) {
+  particles("dam"), scene("slide");
+  const std::string good = read_bytes(*shop / "dam.h5");
+  write_bytes(*shop / "truncated.h5", good.substr(0, good.size() / 2));
+  write_bytes(*shop / "text.h5", "x,y,z\n1,2,3\n");
+  write_bytes(*shop / "empty.h5", "");
+  write_bytes(*shop / "nan.h5", good);
+  h5::File::open_write((*shop / "nan.h5").string())
+      .write_slab("/VTKHDF/Points", std::vector<double>{NAN}.data(), {7, 0}, {1, 1});
+  for (const auto& [name, why] : {std::pair{"truncated", "truncated.h5"}, std::pair{"text", "not an HDF5 file"},
+                                  std::pair{"empty", "not an HDF5 file"}, std::pair{"nan", "Points"},
+                                  std::pair{"missing", "No such file"}, std::pair{"slide-run", "lgiw-run 1"}}) {
+    const Outcome refused = shop->run(std::string("lgiw-run ") + name + ".h5 -o new.h5");
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+    expect_no_trace("new");
+  }
+}
+
+// Water alone: no stress is held. In bytes, what a coupled scene holds for its soil particles beyond what water has.
+TEST_F(Run, WaterAloneHoldsNoStress) {
+  scene("dam"), scene("slide");
+  const json water = summary("dam"), both = summary("slide");
+  const auto left_out = [](const json& s, const std::string& start) -> std::string {
+    for (const std::string line : s.at("left_out"))
+      if (line.compare(0, start.size(), start) == 0) return line;
+    return "";
+  };
+  const double n_water = water.at("particles").at("water"), n_wall = water.at("particles").at("wall");
+  // Mixed precision, plane strain: 4 stresses, their next values, their spare ones, and Adps, 4 bytes each.
+  char bytes[32];
+  std::snprintf(bytes, sizeof bytes, "%.1f MiB", (n_water + n_wall) * (3 * 4 + 1) * 4 / (1 << 20));
+  EXPECT_EQ(left_out(water, "soil "), std::string("soil (stress, Adps, soil and interface kernels): ") + bytes);
+  EXPECT_EQ(left_out(both, "soil "), "");
+  EXPECT_NE(left_out(both, "stress and Adps of water particles: "), "");
+  EXPECT_NE(left_out(both, "Coulomb"), "");
+
+  // By particle. Water: 2 positions of 8; rounded position, velocity and acceleration of 2; density, next density,
+  // pressure of 1, id and cell; to sort, one number of each kind and the order. Walls: position 2, volume, 2 images,
+  // id.
+  const double water_bytes = 2 * 8 + 4 * (3 * 2 + 3) + 2 * 4 + (4 + 8 + 4 + 4), wall_bytes = 4 * (2 + 1 + 2) + 4;
+  const double rest = double(water.at("bytes")) - n_water * water_bytes - n_wall * wall_bytes;  // where cells start
+  EXPECT_GE(rest, 0);
+  const double cells = std::ceil((1.5 + 0.06) / 0.03 + 4) * std::ceil(2.0 / 0.03 + 4);
+  EXPECT_LT(rest, 2 * 4 * (cells + 1));
+  // Walls of a coupled scene hold 4 stresses, 2 velocities, 2 normals and slip besides, and the soil 4 stresses twice
+  // and Adps.
+  const double soil_bytes = 2 * 8 + 4 * (3 * 2 + 2 * 4 + 1 + 2) + 2 * 4 + (4 + 8 + 4 + 4),
+               wall_more = 4 * (4 + 2 + 2 + 1);
+  const double expected = double(both.at("particles").at("water")) * water_bytes +
+                          double(both.at("particles").at("soil")) * soil_bytes +
+                          double(both.at("particles").at("wall")) * (wall_bytes + wall_more);
+  const double both_cells = std::ceil((2.5 + 0.12) / 0.06 + 4) * std::ceil(3.0 / 0.06 + 4);
+  EXPECT_GE(double(both.at("bytes")), expected);
+  EXPECT_LT(double(both.at("bytes")), expected + 3 * 4 * (both_cells + 1));
+}
+
+}  // namespace
+}  // namespace lgiw::test
