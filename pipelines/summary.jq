@@ -11,7 +11,10 @@ def thousands: tostring | [match("\\d{1,3}(?=(\\d{3})*$)"; "g").string] | join("
 def scientific: # two significant digits
   if . == null then "-" elif . == 0 then "0"
   else (fabs | log10 | floor) as $e | (. / pow(10; $e) | fixed(1)) + "e" + ($e | tostring) end;
-def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + " million m3" else fixed(0) + " m3" end;
+def short: # fewer decimals the larger: from flumes to canyons
+  if . == null then "-" elif fabs >= 10 then fixed(1) elif fabs >= 1 then fixed(2) else fixed(4) end;
+def place: if fabs >= 1000 then fixed(0) else fixed(2) end;
+def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + " million m3" else short + " m3" end;
 
 "Case \(.case)",
 "",
@@ -20,12 +23,12 @@ def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + "
 "  run              \(.steps | thousands) steps in \(.wall_time_s | fixed(0)) s, " +
   "\(.particle_steps_per_s / 1e6 | fixed(2)) million particle-steps/s",
 "  slide            \(.slide_volume_m3 | volume), of which \(.immersed_volume_m3 | volume) entered the water; " +
-  "fastest \(.max_slide_speed_m_s | fixed(1)) m/s",
-"  run-up           \(.runup_m | fixed(1)) m above still level on the opposite bank",
+  "fastest \(.max_slide_speed_m_s | short) m/s",
+"  run-up           \(.runup_m | short) m above still level on the opposite bank",
 "  conservation     mass error \(.mass_error | scientific), density error \(.density_error | scientific)",
 "  left out         \(if (.left_out | length) == 0 then "nothing" else (.left_out | join("\n                   ")) end)",
 "",
 "  \("gauge" | fill(10)) \("x (m)" | pad(10)) \("y (m)" | pad(11)) \("highest (m)" | pad(12)) " +
   "\("height (m)" | pad(11)) \("arrival (s)" | pad(12))",
-(.gauges[] | "  \(.name | fill(10)) \(.x | fixed(0) | pad(10)) \(.y | fixed(0) | pad(11)) " +
-  "\(.max_elevation_m | fixed(1) | pad(12)) \(.max_height_m | fixed(1) | pad(11)) \(.arrival_s | fixed(1) | pad(12))")
+(.gauges[] | "  \(.name | fill(10)) \(.x | place | pad(10)) \(.y | place | pad(11)) " +
+  "\(.max_elevation_m | short | pad(12)) \(.max_height_m | short | pad(11)) \(.arrival_s | short | pad(12))")

@@ -5,7 +5,7 @@ names = column_words(peaks, "1", 1)
 n = words(names)
 peak(name, column) = system(sprintf("awk -F, '$1 == \"%s\" {v = $%d} END {print v}' '%s'", name, column, peaks)) + 0
 on_soil(name) = system(sprintf("awk -F, '$1 == \"%s\" {print $2}' '%s'", name, peaks)) eq "soil"
-number(v, unit) = v == v ? sprintf("%.1f %s", v, unit) : "none"
+number(v, unit) = v == v ? sprintf("%.3g %s", v, unit) : "none"
 
 stats rows(series) using 1 nooutput; t_max = STATS_max
 # Gauges on water share a scale, so that the wave is seen to spread; those on soil have theirs.

@@ -24,7 +24,7 @@ do for [s in sections] {
     if (k > words(times) - columns) { set xlabel "distance along section ".s." (m)" offset 0, 0.4 } else { unset xlabel }
     if (k % columns == 1) { set ylabel "elevation (m)" offset 1 } else { unset ylabel }
     if (k == 1) { set key at screen 0.5, screen 1 - 64.0 / (130 + 340 * down) center center horizontal width 2 } else { unset key }
-    set label 1 sprintf("%.1f s", real(t)) at graph 0.5, 0.92 center font ",15"
+    set label 1 sprintf(real(t) >= 10 ? "%.0f s" : "%.2g s", real(t)) at graph 0.5, 0.92 center font ",15"
     set label 2 s at graph 0.01, 0.06 tc rgb red font ",15" front; set label 3 s."'" at graph 0.99, 0.06 right tc rgb red font ",15" front
     plot rows(table) using 3:(at($9)):(at(upper($7, $8))) with filledcurves fc rgb pale_blue title "water", \
          rows(table) using 3:(at($8)):(at($7)) with filledcurves fc rgb "#d3a97c" title "soil", \
