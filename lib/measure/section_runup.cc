@@ -48,7 +48,9 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
         edge = k, surface = z;
       }
       if (edge < line.stations.size()) {
-        const bool level = edge + 1 < line.stations.size() && line.bed[edge + 1] > surface - header_.particles.dp;
+        // A map cell ahead is two stations: on a steep bank the cell that has just fallen dry may rise by more than dp.
+        const std::size_t ahead = std::min(edge + 2, line.stations.size() - 1);
+        const bool level = ahead > edge && line.bed[ahead] > surface - header_.particles.dp;
         reached = (level ? std::max(surface, line.bed[edge]) : line.bed[edge]) + header_.particles.origin[2];
       }
     }

@@ -18,7 +18,8 @@ struct CaseRun {
   ModelParameters p;
   std::unique_ptr<Simulation> simulation;
 
-  explicit CaseRun(const std::string& yaml) : c(parse_case(yaml, "case")) {
+  explicit CaseRun(const std::string& yaml) : CaseRun(parse_case(yaml, "case")) {}
+  explicit CaseRun(Case the_case) : c(std::move(the_case)) {
     Provenance provenance;
     const TerrainModel model = build_terrain(c, provenance);
     data = seed_particles(c, model);

@@ -1,8 +1,7 @@
 // The solver against a plain O(N^2) evaluation of physics.md, in double precision, on disordered particles of all phases.
 #include <gtest/gtest.h>
 
-#include <random>
-
+#include "cloud.hh"
 #include "physics/interface.hh"
 #include "physics/kernel.hh"
 #include "physics/soil.hh"
@@ -11,67 +10,9 @@
 namespace lgiw {
 namespace {
 
-struct Options {
-  int dimension = 2;
-  bool walls = true, cubic = false, paper = false, gravity = true, pore = true;
-};
-
-struct Cloud {
-  ModelParameters p;
-  InitialParticles in;
-};
-
-/// A disordered block: soil in the lower half, water above, walls around, everything moving. Lengths of order dp = 0.1 m.
-Cloud cloud(const Options& o) {
-  Cloud s;
-  ModelParameters& p = s.p;
-  p.dimension = o.dimension, p.dp = 0.1, p.h = 0.15;
-  p.gravity = o.gravity ? std::array<double, 3>{0.5, 0, -9.7} : std::array<double, 3>{0, 0, 0};
-  p.cubic_kernel = o.cubic;
-  p.sound_speed = 40, p.water_alpha = 0.05, p.density_diffusion = o.paper ? 0 : 0.1;
-  p.soil_density = 1900, p.young_modulus = 2e6, p.friction = 0.45, p.cohesion = 50, p.dilatancy = 0.1;
-  p.soil_alpha = 0.2, p.stress_diffusion = o.paper ? 0 : 0.1, p.artificial_stress = o.paper ? 0.5 : 0;
-  p.return_mapping = !o.paper, p.wall_viscosity = !o.paper;
-  p.k0 = 1 - std::sin(p.friction), p.pore_gradient = o.pore ? 9810 : 0;
-  p.velocity_factor = o.paper ? 2 : 1, p.image_gravity = !o.paper;
-  p.still_water_level = 0.9;
-  p.low = {-1, -1, -1}, p.high = {3, 3, 3};
-  p.free_slip_sides = true;
-
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> u(-1, 1);
-  const int n = o.dimension == 2 ? 12 : 7, ny = o.dimension == 2 ? 1 : 5;
-  for (int k = -3; k < n; ++k)
-    for (int j = o.dimension == 2 ? 0 : -3; j < (o.dimension == 2 ? 1 : ny + 3); ++j)
-      for (int i = -3; i < n + 3; ++i) {
-        const bool inside = i >= 0 && i < n && k >= 0 && j >= 0 && j < ny;
-        if (!inside && !o.walls) continue;
-        const double jitter = inside ? 0.02 : 0;
-        const double x = 0.1 * i + 0.05 + jitter * u(random), z = 0.1 * k + 0.05 + jitter * u(random);
-        const double y = o.dimension == 2 ? 0 : 0.1 * j + 0.05 + jitter * u(random);
-        if (!inside) {
-          s.in.wall_x.insert(s.in.wall_x.end(), {x, y, z});
-          const bool bed = k < 0;
-          const float side = i < 0 ? 1.f : -1.f;
-          if (bed) s.in.wall_normal.insert(s.in.wall_normal.end(), {0.f, 0.f, 1.f});
-          else s.in.wall_normal.insert(s.in.wall_normal.end(), {side, 0.f, 0.f});
-          s.in.wall_volume.push_back(float(std::pow(0.1, o.dimension) * (1 + 0.2 * u(random))));
-          s.in.wall_kind.push_back(bed ? 0 : 1);
-        } else if (2 * k < n) {
-          s.in.soil_x.insert(s.in.soil_x.end(), {x, y, z});
-          for (int c = 0; c < 3; ++c) s.in.soil_v.push_back(o.dimension == 2 && c == 1 ? 0 : float(0.3 * u(random)));
-          for (int c = 0; c < 6; ++c) {
-            const bool zero = o.dimension == 2 && (c == 3 || c == 4);
-            s.in.soil_stress.push_back(zero ? 0 : float(c < 3 ? -20000 + 6000 * u(random) : 5000 * u(random)));
-          }
-        } else {
-          s.in.water_x.insert(s.in.water_x.end(), {x, y, z});
-          for (int c = 0; c < 3; ++c) s.in.water_v.push_back(o.dimension == 2 && c == 1 ? 0 : float(0.3 * u(random)));
-          s.in.water_excess.push_back(float(2 + u(random)));
-        }
-      }
-  return s;
-}
+using test::Cloud;
+using test::cloud;
+using Options = test::CloudOptions;
 
 /// What physics.md says, term by term, with sums over everything.
 template <int D>

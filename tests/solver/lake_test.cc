@@ -1,0 +1,49 @@
+// Water alone at rest in a real canyon, coarser than pipelines/lake-at-rest so that it takes seconds.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "base/error.hh"
+#include "case_run.hh"
+
+namespace lgiw::test {
+namespace {
+
+TEST(LakeAtRest, RealCanyonCalmsDownAndKeepsItsLevel) {
+  Case c = read_case(LGIW_SOURCE_DIR "/pipelines/lake-at-rest/case.yaml", {"particle_spacing=30"});
+  CaseRun run(c);
+  ASSERT_GT(run.data.water.size(), 3000u);
+  EXPECT_EQ(run.data.soil.size(), 0u);
+  const double depth = 140, wave = std::sqrt(9.81 * depth);
+  run.simulation->settle(true);
+  run.at(c.numerics.settle_time);
+  run.simulation->settle(false);
+  double energy_at_10 = 0;
+  std::vector<double> speeds;
+  ParticleState s;
+  for (int t = 0; t <= 60; t += 10) {
+    s = run.at(t);
+    speeds.push_back(run.diagnostic(s, "max_water_speed"));
+    if (t == 10) energy_at_10 = run.diagnostic(s, "kinetic_energy");
+  }
+  std::printf("measured: lake at rest, dp 30 m: fastest particle %.2f m/s at 10 s, %.2f m/s at 60 s (0.01 sqrt(g h) = %.2f)\n", speeds[1],
+              speeds[6], 0.01 * wave);
+  EXPECT_LT(run.diagnostic(s, "kinetic_energy"), 0.25 * energy_at_10);
+  EXPECT_LT(speeds[6], 0.4 * speeds[1]);
+  EXPECT_LT(speeds[6], 0.015 * wave);          // 5 particles deep; the bar of 0.01 is for the case's own spacing
+  EXPECT_EQ(run.diagnostic(s, "below_bed"), 0);
+  EXPECT_EQ(run.simulation->state().lost_water, 0);
+
+  std::vector<float> xyz(s.water_x.begin(), s.water_x.end());
+  ColumnParticles columns;
+  columns.dimension = 3, columns.dp = 30, columns.h = 45;
+  columns.n_water = s.water_x.size() / 3, columns.xyz = xyz.data();
+  for (const Gauge& gauge : c.gauges) {
+    const SurfaceMap here{1, 1, gauge.x - run.data.header.origin[0], gauge.y - run.data.header.origin[1], 30};
+    const ColumnSurfaces surface = column_surfaces(columns, here, run.data.header.bed);
+    EXPECT_NEAR(surface.water[0], 740, 0.1 * 30) << gauge.name;
+  }
+}
+
+}  // namespace
+}  // namespace lgiw::test
