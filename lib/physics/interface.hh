@@ -8,7 +8,7 @@ namespace lgiw {
 /// The repulsive force of Liu et al. 2012, Eqs. (18)-(20), with the value 0.5 at the point left undefined.
 template <class T>
 struct SoftRepulsion {
-  T strength;           // 0.01 c_w^2, m2/s2; 0 leaves it out
+  T strength;               // 0.01 c_w^2, m2/s2; 0 leaves it out
   T inverse_dp, eta_scale;  // 1/dp, 2/h
   SoftRepulsion() = default;
   SoftRepulsion(bool on, double sound_speed, double dp, double h)
@@ -24,15 +24,16 @@ struct SoftRepulsion {
   }
 };
 
-/// Acceleration of a water particle by a soil particle, per unit of r_ws, Eq. (15) with (18). The soil particle receives
-/// -m_w/m_s times the same (Eq. (17) with its sign mended): momentum is exchanged exactly.
+/// Acceleration of a water particle by a soil particle, per unit of r_ws, Eq. (15) with (18). The soil particle
+/// receives -m_w/m_s times the same (Eq. (17) with its sign mended): momentum is exchanged exactly.
 template <class T, int D>
 struct InterfacePair {
   T water_mass;
   ArtificialViscosity<T, D> viscosity;
   SoftRepulsion<T> repulsion;
 
-  /// r = |r_ws|, f = W'/r, mu the viscous velocity of the pair, p/rho^2 of water and of the water image at the soil particle.
+  /// r = |r_ws|, f = W'/r, mu the viscous velocity of the pair, p/rho^2 of water and of the water image at the soil
+  /// particle.
   LGIW_FN T operator()(T r, T r2, T f, T mu, T water_term, T image_term, T rho_mean) const {
     return -water_mass * (water_term + image_term + viscosity(mu, rho_mean)) * f + repulsion(r, r2);
   }

@@ -1,5 +1,6 @@
 // Smoothing kernels with support 2h (physics.md section 1). gradient() returns F = W'(r)/r <= 0, so that
-// grad_i W_ij = F r_ij; both are zero outside the support, and F stays finite at r = 0: no branch is needed in a pair loop.
+// grad_i W_ij = F r_ij; both are zero outside the support, and F stays finite at r = 0: no branch is needed in a pair
+// loop.
 #pragma once
 
 #include "physics/vec.hh"

@@ -11,12 +11,13 @@ enum class Cone { plane_strain, plane_strain_associated, compression };
 /// Elastic and Drucker-Prager constants.
 template <class T>
 struct SoilMaterial {
-  T bulk, shear;              // K, G in Pa
+  T bulk, shear;  // K, G in Pa
   T alpha_phi, k_c, alpha_psi;
 
   SoilMaterial() = default;
   /// Angles in radians, E and c in Pa. The table of physics.md section 4.
-  SoilMaterial(double young_modulus, double poisson_ratio, double friction, double cohesion, double dilatancy, Cone cone)
+  SoilMaterial(double young_modulus, double poisson_ratio, double friction, double cohesion, double dilatancy,
+               Cone cone)
       : bulk(T(young_modulus / (3 * (1 - 2 * poisson_ratio)))), shear(T(young_modulus / (2 * (1 + poisson_ratio)))) {
     const double tan_phi = std::tan(friction), tan_psi = std::tan(dilatancy);
     const double sin_phi = std::sin(friction), sin_psi = std::sin(dilatancy), cos_phi = std::cos(friction);
@@ -86,8 +87,8 @@ LGIW_FN Stress<T, D> elastic_increment(const SoilMaterial<T>& m, const Stress<T,
   return d;
 }
 
-/// Return mapping (physics.md section 5). Brings the trial stress back to the cone or its apex and returns the increment of
-/// Adps, the accumulated deviatoric plastic strain: int sqrt(2/3 deps_p : deps_p).
+/// Return mapping (physics.md section 5). Brings the trial stress back to the cone or its apex and returns the
+/// increment of Adps, the accumulated deviatoric plastic strain: int sqrt(2/3 deps_p : deps_p).
 template <class T, int D>
 LGIW_FN T return_mapping(const SoilMaterial<T>& m, Stress<T, D>& sigma, T pore_pressure) {
   const Deviator<T, D> trial(sigma);
@@ -112,10 +113,11 @@ LGIW_FN T return_mapping(const SoilMaterial<T>& m, Stress<T, D>& sigma, T pore_p
 }
 
 /// The paper's rate form, Eqs. (8)-(9), with lambda' >= 0, the drift correction and the apex shift that it needs
-/// (physics.md section 5). sigma is the stress before the step, increment the elastic one over dt; returns the Adps increment.
+/// (physics.md section 5). sigma is the stress before the step, increment the elastic one over dt; returns the Adps
+/// increment.
 template <class T, int D>
-LGIW_FN T rate_form_update(const SoilMaterial<T>& m, Stress<T, D>& sigma, const Stress<T, D>& increment, const T* l, T dt,
-                           T pore_pressure) {
+LGIW_FN T rate_form_update(const SoilMaterial<T>& m, Stress<T, D>& sigma, const Stress<T, D>& increment, const T* l,
+                           T dt, T pore_pressure) {
   const Deviator<T, D> old(sigma);
   const T scale = m.k_c + m.alpha_phi * (largest(T(0), -old.i1 - 3 * pore_pressure)) + m.shear * T(1e-7);
   const bool yields = yield_function(m, old.i1, old.root_j2, pore_pressure) >= -T(1e-3) * scale;
@@ -149,8 +151,8 @@ LGIW_FN T rate_form_update(const SoilMaterial<T>& m, Stress<T, D>& sigma, const 
   return adps;
 }
 
-/// Artificial stress (Gray et al. 2001), the R of Eq. (7): -epsilon times the tensile principal stresses over rho^2, in the
-/// axes of the principal stresses. 2-D: in the plane only.
+/// Artificial stress (Gray et al. 2001), the R of Eq. (7): -epsilon times the tensile principal stresses over rho^2, in
+/// the axes of the principal stresses. 2-D: in the plane only.
 template <class T>
 LGIW_FN Stress<T, 2> artificial_stress(const Stress<T, 2>& s, T epsilon_over_rho2) {
   const T mean = T(0.5) * (s.c[0] + s.c[1]), half = T(0.5) * (s.c[0] - s.c[1]);

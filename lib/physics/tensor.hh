@@ -9,9 +9,13 @@ namespace lgiw {
 template <int D>
 struct StressSize;
 template <>
-struct StressSize<2> { static constexpr int value = 4; };
+struct StressSize<2> {
+  static constexpr int value = 4;
+};
 template <>
-struct StressSize<3> { static constexpr int value = 6; };
+struct StressSize<3> {
+  static constexpr int value = 6;
+};
 
 template <class T, int D>
 struct Stress {
@@ -27,15 +31,23 @@ LGIW_FN constexpr int stress_index(int a, int b) {
 }
 
 template <class T>
-LGIW_FN T trace(const Stress<T, 2>& s) { return s.c[0] + s.c[1] + s.c[3]; }
+LGIW_FN T trace(const Stress<T, 2>& s) {
+  return s.c[0] + s.c[1] + s.c[3];
+}
 template <class T>
-LGIW_FN T trace(const Stress<T, 3>& s) { return s.c[0] + s.c[1] + s.c[2]; }
+LGIW_FN T trace(const Stress<T, 3>& s) {
+  return s.c[0] + s.c[1] + s.c[2];
+}
 
 /// Adds s to the normal components, the out-of-plane one too.
 template <class T>
-LGIW_FN void add_isotropic(Stress<T, 2>& t, T s) { t.c[0] += s, t.c[1] += s, t.c[3] += s; }
+LGIW_FN void add_isotropic(Stress<T, 2>& t, T s) {
+  t.c[0] += s, t.c[1] += s, t.c[3] += s;
+}
 template <class T>
-LGIW_FN void add_isotropic(Stress<T, 3>& t, T s) { t.c[0] += s, t.c[1] += s, t.c[2] += s; }
+LGIW_FN void add_isotropic(Stress<T, 3>& t, T s) {
+  t.c[0] += s, t.c[1] += s, t.c[2] += s;
+}
 
 /// s : s
 template <class T>
@@ -55,8 +67,7 @@ LGIW_FN Vec<T, 2> apply(const Stress<T, 2>& s, const Vec<T, 2>& r) {
 }
 template <class T>
 LGIW_FN Vec<T, 3> apply(const Stress<T, 3>& s, const Vec<T, 3>& r) {
-  return {{s.c[0] * r.c[0] + s.c[3] * r.c[1] + s.c[5] * r.c[2],
-           s.c[3] * r.c[0] + s.c[1] * r.c[1] + s.c[4] * r.c[2],
+  return {{s.c[0] * r.c[0] + s.c[3] * r.c[1] + s.c[5] * r.c[2], s.c[3] * r.c[0] + s.c[1] * r.c[1] + s.c[4] * r.c[2],
            s.c[5] * r.c[0] + s.c[4] * r.c[1] + s.c[2] * r.c[2]}};
 }
 

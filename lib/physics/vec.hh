@@ -39,10 +39,16 @@ LGIW_FN void add_scaled(Vec<T, D>& a, T s, const Vec<T, D>& b) {
 }
 
 template <class T>
-LGIW_FN T square_root(T x) { return std::sqrt(x); }
+LGIW_FN T square_root(T x) {
+  return std::sqrt(x);
+}
 template <class T>
-LGIW_FN T largest(T a, T b) { return a > b ? a : b; }
+LGIW_FN T largest(T a, T b) {
+  return a > b ? a : b;
+}
 template <class T>
-LGIW_FN T smallest(T a, T b) { return a < b ? a : b; }
+LGIW_FN T smallest(T a, T b) {
+  return a < b ? a : b;
+}
 
 }  // namespace lgiw

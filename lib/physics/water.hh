@@ -1,6 +1,6 @@
 // Weakly compressible water (physics.md section 2): equation of state, continuity with density diffusion, momentum.
-// The state variable is the excess density e = rho - rho0: single precision then resolves pressures far below those of one
-// particle spacing of water.
+// The state variable is the excess density e = rho - rho0: single precision then resolves pressures far below those of
+// one particle spacing of water.
 #pragma once
 
 #include "physics/vec.hh"
@@ -20,8 +20,8 @@ struct EquationOfState {
     const T s = e / rho0;
     return stiffness * s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s))))));
   }
-  /// Excess density at pressure p. Two Newton steps on the expanded polynomial after the linear guess: the compressions of
-  /// this model stay below a few per cent, where this is exact to rounding.
+  /// Excess density at pressure p. Two Newton steps on the expanded polynomial after the linear guess: the compressions
+  /// of this model stay below a few per cent, where this is exact to rounding.
   LGIW_FN T excess(T p) const {
     const T y = p / stiffness;
     T s = y / (7 + 3 * y);
@@ -37,8 +37,8 @@ struct EquationOfState {
 /// d(rho_i)/dt from particle j: continuity, Eq. (1), and density diffusion without its hydrostatic part.
 template <class T, int D>
 struct WaterContinuity {
-  T mass;            // m_j, kg
-  T diffusion;       // 2 delta h c_w, m2/s; 0 between unlike particles
+  T mass;                     // m_j, kg
+  T diffusion;                // 2 delta h c_w, m2/s; 0 between unlike particles
   Vec<T, D> static_gradient;  // rho0 g / c_w^2: gradient of density at rest
 
   /// r = r_i - r_j, v = v_i - v_j, f = W'/r, e the excess densities, rho_j in kg/m3.
@@ -52,11 +52,13 @@ struct WaterContinuity {
 /// Monaghan's artificial viscosity, Eq. (5).
 template <class T, int D>
 struct ArtificialViscosity {
-  T alpha_c;      // alpha times the sound speed, m/s
-  T h, epsilon;   // smoothing length, 0.01 h^2
+  T alpha_c;     // alpha times the sound speed, m/s
+  T h, epsilon;  // smoothing length, 0.01 h^2
   ArtificialViscosity() = default;
   ArtificialViscosity(double alpha, double sound_speed, double smoothing_length)
-      : alpha_c(T(alpha * sound_speed)), h(T(smoothing_length)), epsilon(T(0.01 * smoothing_length * smoothing_length)) {}
+      : alpha_c(T(alpha * sound_speed)),
+        h(T(smoothing_length)),
+        epsilon(T(0.01 * smoothing_length * smoothing_length)) {}
 
   /// mu_ij in m/s: also the velocity that limits the time step.
   LGIW_FN T mu(T vr, T r2) const { return h * vr / (r2 + epsilon); }

@@ -77,7 +77,8 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
 Checkpoint read_checkpoint(const std::string& path, const std::string& identity) {
   h5::File file = h5::File::open_read(path);
   LGIW_VALIDATE(file.has_attribute("/", "Format") && file.text_attribute("/", "Format") == format,
-                path + " is no checkpoint", "it lacks the attribute Format = " + std::string(format), "name another file");
+                path + " is no checkpoint", "it lacks the attribute Format = " + std::string(format),
+                "name another file");
   Checkpoint c;
   c.identity = file.text_attribute("/", "Identity");
   LGIW_VALIDATE(c.identity == identity, path + " belongs to another run",
@@ -116,7 +117,7 @@ Checkpoint read_newest_checkpoint(const std::string& path, const std::string& id
       Checkpoint c = read_checkpoint(candidate, identity);
       if (note && !why.empty()) *note = "resuming from " + candidate + ": " + why;
       return c;
-    } catch (const std::exception& e) {   // damage can also ask for more memory than there is
+    } catch (const std::exception& e) {  // damage can also ask for more memory than there is
       why += (why.empty() ? "" : "; ") + std::string(e.what());
     }
   }

@@ -11,14 +11,14 @@
 namespace lgiw {
 
 struct Checkpoint {
-  std::string identity;           // SHA-256 over what the run depends on; a checkpoint of another run is refused
-  int64_t outputs = 0;            // surface times written so far
+  std::string identity;  // SHA-256 over what the run depends on; a checkpoint of another run is refused
+  int64_t outputs = 0;   // surface times written so far
   int64_t frames = 0, surfaces = 0, diagnostics = 0;
-  double wall_time = 0;           // s spent before
-  std::map<std::string, double> extremes;               // running maxima of the summary
-  std::map<std::string, std::vector<float>> maxima;     // rasters
+  double wall_time = 0;                              // s spent before
+  std::map<std::string, double> extremes;            // running maxima of the summary
+  std::map<std::string, std::vector<float>> maxima;  // rasters
   std::vector<float> initial_elevation;
-  std::vector<RawArray> arrays;   // Simulation::save()
+  std::vector<RawArray> arrays;  // Simulation::save()
 };
 
 /// Writes to a temporary file, keeps the present `path` as `path` + ".previous", and renames.

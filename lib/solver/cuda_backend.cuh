@@ -1,4 +1,5 @@
-// Runs the passes on a CUDA device. Holds launches and memory only; the physics is in lib/physics and lib/solver/passes.hh.
+// Runs the passes on a CUDA device. Holds launches and memory only; the physics is in lib/physics and
+// lib/solver/passes.hh.
 #pragma once
 
 #include <cub/device/device_radix_sort.cuh>
@@ -27,12 +28,12 @@ __global__ void run_each(int n, F f) {
   if (i < n) f(i);
 }
 template <class F>
-__global__ void run_once(F f) { f(0); }
+__global__ void run_once(F f) {
+  f(0);
+}
 
 /// Limits are never negative, so that their bits order like integers and a maximum is one integer atomic.
-__device__ inline void raise(float* to, float value) {
-  atomicMax(reinterpret_cast<int*>(to), __float_as_int(value));
-}
+__device__ inline void raise(float* to, float value) { atomicMax(reinterpret_cast<int*>(to), __float_as_int(value)); }
 __device__ inline void raise(double* to, double value) {
   atomicMax(reinterpret_cast<long long*>(to), __double_as_longlong(value));
 }
@@ -80,10 +81,18 @@ struct CudaBackend {
     explicit Array(std::size_t n) : size_(n) {
       if (n) check_cuda(cudaMalloc(reinterpret_cast<void**>(&data_), n * sizeof(T)), "memory for particles");
     }
-    ~Array() { if (data_) cudaFree(data_); }
+    ~Array() {
+      if (data_) cudaFree(data_);
+    }
     Array(Array&& o) noexcept { swap(o); }
-    Array& operator=(Array&& o) noexcept { swap(o); return *this; }
-    void swap(Array& o) noexcept { std::swap(data_, o.data_); std::swap(size_, o.size_); }
+    Array& operator=(Array&& o) noexcept {
+      swap(o);
+      return *this;
+    }
+    void swap(Array& o) noexcept {
+      std::swap(data_, o.data_);
+      std::swap(size_, o.size_);
+    }
     T* data() const { return data_; }
     std::size_t size() const { return size_; }
 
@@ -94,7 +103,8 @@ struct CudaBackend {
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {
-    if (to.size()) check_cuda(cudaMemcpy(to.data(), from, to.size() * sizeof(T), cudaMemcpyHostToDevice), "copy to the device");
+    if (to.size())
+      check_cuda(cudaMemcpy(to.data(), from, to.size() * sizeof(T), cudaMemcpyHostToDevice), "copy to the device");
   }
   template <class T>
   void download(T* to, const Array<T>& from) const {
@@ -135,11 +145,13 @@ struct CudaBackend {
     int bits = 1;
     while (bits < 31 && (cells >> bits) > 0) ++bits;
     std::size_t bytes = 0;
-    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, key.data(), sorted_key_.data(), identity_.data(), order.data(),
-                                               n, 0, bits), "sort");
+    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, key.data(), sorted_key_.data(), identity_.data(),
+                                               order.data(), n, 0, bits),
+               "sort");
     if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
     check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, key.data(), sorted_key_.data(), identity_.data(),
-                                               order.data(), n, 0, bits), "sort");
+                                               order.data(), n, 0, bits),
+               "sort");
     check_cuda(cudaMemcpyAsync(key.data(), sorted_key_.data(), n * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
     cell_starts_kernel<<<blocks(n + 1), block>>>(n, sorted_key_.data(), cells, start.data());
     launched("sort");
@@ -152,9 +164,7 @@ struct CudaBackend {
     launched("sort");
   }
   /// Phases are timed by what the host waits for: with queued launches the shares are those of launching.
-  double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
+  double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
   void wait() const { check_cuda(cudaDeviceSynchronize(), "a step"); }
   std::string name() const {
     cudaDeviceProp p;

@@ -22,7 +22,8 @@ std::unique_ptr<Simulation> make_cuda_simulation(const ModelParameters& p, const
     case NumberType::single_:
       return plane ? make_cuda<float, float, 2>(p, particles, type) : make_cuda<float, float, 3>(p, particles, type);
     case NumberType::double_:
-      return plane ? make_cuda<double, double, 2>(p, particles, type) : make_cuda<double, double, 3>(p, particles, type);
+      return plane ? make_cuda<double, double, 2>(p, particles, type)
+                   : make_cuda<double, double, 3>(p, particles, type);
     default:
       return plane ? make_cuda<double, float, 2>(p, particles, type) : make_cuda<double, float, 3>(p, particles, type);
   }

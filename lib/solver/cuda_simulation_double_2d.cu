@@ -1,5 +1,6 @@
 #include "solver/cuda_simulation_impl.cuh"
 
 namespace lgiw {
-template std::unique_ptr<Simulation> make_cuda<double, double, 2>(const ModelParameters&, const InitialParticles&, NumberType);
+template std::unique_ptr<Simulation> make_cuda<double, double, 2>(const ModelParameters&, const InitialParticles&,
+                                                                  NumberType);
 }  // namespace lgiw

@@ -37,8 +37,8 @@ Sums sum_up(const ModelParameters& p, const std::vector<double>& x, const std::v
 
 }  // namespace
 
-std::vector<std::pair<std::string, double>> diagnose(const ModelParameters& p, const ParticleState& s, const StepState& st,
-                                                     const HeightField& bed) {
+std::vector<std::pair<std::string, double>> diagnose(const ModelParameters& p, const ParticleState& s,
+                                                     const StepState& st, const HeightField& bed) {
   const double volume = std::pow(p.dp, p.dimension);
   const bool water = !s.water_x.empty(), soil = !s.soil_x.empty();
   const Sums w = sum_up(p, s.water_x, s.water_v, s.water_lost, p.water_density * volume, bed);

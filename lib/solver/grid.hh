@@ -1,5 +1,5 @@
-// The cell grid that finds neighbours. Cells are as wide as the kernel's support and numbered along x first, so that the
-// neighbours of a particle lie in 3 (2-D) or 9 (3-D) contiguous ranges of the particles of a phase, sorted by cell.
+// The cell grid that finds neighbours. Cells are as wide as the kernel's support and numbered along x first, so that
+// the neighbours of a particle lie in 3 (2-D) or 9 (3-D) contiguous ranges of the particles of a phase, sorted by cell.
 #pragma once
 
 #include "physics/vec.hh"
@@ -12,7 +12,7 @@ struct Grid {
   double low[D];
   double inverse_width;
   int n[D];
-  int cells;     // the product of n; also the key of particles that have left the domain
+  int cells;  // the product of n; also the key of particles that have left the domain
 
   Grid() = default;
   /// Covers the box from `low_corner` to `high_corner` with two cells to spare on each side, so that the neighbouring

@@ -19,8 +19,8 @@ double greatest_soil_height(const ParticleBlock& soil, double dp) {
   std::map<std::pair<long, long>, std::pair<double, double>> columns;
   for (std::size_t i = 0; i < soil.size(); ++i) {
     const double z = soil.points[3 * i + 2];
-    auto [it, first] = columns.try_emplace({std::lround(std::floor(soil.points[3 * i] / dp)),
-                                            std::lround(std::floor(soil.points[3 * i + 1] / dp))}, z, z);
+    auto [it, first] = columns.try_emplace(
+        {std::lround(std::floor(soil.points[3 * i] / dp)), std::lround(std::floor(soil.points[3 * i + 1] / dp))}, z, z);
     if (!first) it->second = {std::min(it->second.first, z), std::max(it->second.second, z)};
   }
   double height = 0;
@@ -43,9 +43,12 @@ double greatest_water_depth(const ParticleData& data) {
 
 NumberType number_type(Precision precision) {
   switch (precision) {
-    case Precision::single_: return NumberType::single_;
-    case Precision::double_: return NumberType::double_;
-    default: return NumberType::mixed;
+    case Precision::single_:
+      return NumberType::single_;
+    case Precision::double_:
+      return NumberType::double_;
+    default:
+      return NumberType::mixed;
   }
 }
 
@@ -71,8 +74,9 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     const Soil& s = c.soil;
     p.soil_density = s.density, p.young_modulus = s.young_modulus, p.poisson_ratio = s.poisson_ratio;
     p.friction = s.friction_angle * degree, p.dilatancy = s.dilatancy_angle * degree, p.cohesion = s.cohesion;
-    p.cone = int(s.cone == ConeMatching::plane_strain ? Cone::plane_strain
-                 : s.cone == ConeMatching::compression_cone ? Cone::compression : Cone::plane_strain_associated);
+    p.cone = int(s.cone == ConeMatching::plane_strain       ? Cone::plane_strain
+                 : s.cone == ConeMatching::compression_cone ? Cone::compression
+                                                            : Cone::plane_strain_associated);
     p.stress_diffusion = s.stress_diffusion, p.artificial_stress = s.artificial_stress;
     p.return_mapping = c.numerics.return_mapping, p.wall_viscosity = c.numerics.wall_viscosity;
     p.k0 = 1 - std::sin(p.friction);

@@ -11,7 +11,8 @@ namespace lgiw {
 /// Model parameters of a case, automatic values worked out:
 /// - artificial viscosity of the soil: alpha c_s = 3 sqrt(g H), H the greatest height of a column of soil (physics.md
 ///   section 3: run-out depends on that product, 2 to 6 sqrt(g H) being its useful range);
-/// - absorbing sides: damping rate 9 sqrt(g d)/width at the side, d the greatest water depth: a long wave that crosses the zone
+/// - absorbing sides: damping rate 9 sqrt(g d)/width at the side, d the greatest water depth: a long wave that crosses
+/// the zone
 ///   twice is left with exp(-3) of its height;
 /// - settling: damping rate sqrt(g/dp).
 ModelParameters make_model(const Case& c, const ParticleData& data);

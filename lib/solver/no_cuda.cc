@@ -10,7 +10,8 @@ bool cuda_available(std::string* why) {
 }
 
 std::unique_ptr<Simulation> make_cuda_simulation(const ModelParameters&, const InitialParticles&, NumberType) {
-  throw BackendError("--backend cuda is not possible (this build has no CUDA backend) rebuild where nvcc is, or use --backend cpu");
+  throw BackendError(
+      "--backend cuda is not possible (this build has no CUDA backend) rebuild where nvcc is, or use --backend cpu");
 }
 
 }  // namespace lgiw

@@ -23,10 +23,18 @@ struct OpenMpBackend {
     explicit Array(std::size_t n) : size_(n) {
       if (n) data_ = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
     }
-    ~Array() { if (data_) ::operator delete(data_, std::align_val_t(64)); }
+    ~Array() {
+      if (data_) ::operator delete(data_, std::align_val_t(64));
+    }
     Array(Array&& o) noexcept { swap(o); }
-    Array& operator=(Array&& o) noexcept { swap(o); return *this; }
-    void swap(Array& o) noexcept { std::swap(data_, o.data_); std::swap(size_, o.size_); }
+    Array& operator=(Array&& o) noexcept {
+      swap(o);
+      return *this;
+    }
+    void swap(Array& o) noexcept {
+      std::swap(data_, o.data_);
+      std::swap(size_, o.size_);
+    }
     T* data() const { return data_; }
     std::size_t size() const { return size_; }
 
@@ -36,11 +44,17 @@ struct OpenMpBackend {
   };
 
   template <class T>
-  void upload(const Array<T>& to, const T* from) { if (to.size()) std::memcpy(to.data(), from, to.size() * sizeof(T)); }
+  void upload(const Array<T>& to, const T* from) {
+    if (to.size()) std::memcpy(to.data(), from, to.size() * sizeof(T));
+  }
   template <class T>
-  void download(T* to, const Array<T>& from) const { if (from.size()) std::memcpy(to, from.data(), from.size() * sizeof(T)); }
+  void download(T* to, const Array<T>& from) const {
+    if (from.size()) std::memcpy(to, from.data(), from.size() * sizeof(T));
+  }
   template <class T>
-  void zero(const Array<T>& a) { if (a.size()) std::memset(static_cast<void*>(a.data()), 0, a.size() * sizeof(T)); }
+  void zero(const Array<T>& a) {
+    if (a.size()) std::memset(static_cast<void*>(a.data()), 0, a.size() * sizeof(T));
+  }
 
   template <class F>
   void for_each(int n, const F& f) {
@@ -48,7 +62,9 @@ struct OpenMpBackend {
     for (int i = 0; i < n; ++i) f(i);
   }
   template <class F>
-  void single(const F& f) { f(0); }
+  void single(const F& f) {
+    f(0);
+  }
   /// Runs f and raises *limits to the largest that it returned.
   template <class T, class F>
   void for_each_limits(int n, const F& f, Limits<T>* limits) {
@@ -76,7 +92,7 @@ struct OpenMpBackend {
       sum += count;
     }
     for (int i = 0; i < n; ++i) order.data()[s[key.data()[i]]++] = i;
-    for (int c = cells; c > 0; --c) s[c] = s[c - 1];   // the fill moved each start to the next one's place
+    for (int c = cells; c > 0; --c) s[c] = s[c - 1];  // the fill moved each start to the next one's place
     s[0] = 0;
   }
   template <class T>
@@ -88,9 +104,7 @@ struct OpenMpBackend {
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < n; ++i) out[i] = in[o[i]];
   }
-  double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
+  double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
   void wait() const {}
   std::string name() const { return "CPU"; }
 };

@@ -27,7 +27,7 @@ struct Parameters {
   using T = typename Tr::T;
   static constexpr int D = Tr::D;
   typename Tr::Kernel kernel;
-  T dp, h, volume;                   // volume = dp^D
+  T dp, h, volume;  // volume = dp^D
   Vec<T, D> gravity;
   // Water.
   EquationOfState<T> eos;
@@ -38,15 +38,16 @@ struct Parameters {
   // Soil.
   SoilMaterial<T> soil;
   ArtificialViscosity<T, D> soil_viscosity;
-  T soil_density, soil_mass, stress_diffusion;       // 2 delta h c_s, 0: left out
-  Stress<T, D> static_stress_dry, static_stress_wet; // -d(stress)/d(g.x): rho_s kappa, above and below still water level
+  T soil_density, soil_mass, stress_diffusion;  // 2 delta h c_s, 0: left out
+  Stress<T, D> static_stress_dry,
+      static_stress_wet;  // -d(stress)/d(g.x): rho_s kappa, above and below still water level
   T pore_gradient, still_water_level;
-  T artificial_stress, inverse_w_dp;                 // epsilon / rho_s^2, 1 / W(dp)
+  T artificial_stress, inverse_w_dp;  // epsilon / rho_s^2, 1 / W(dp)
   bool return_mapping, wall_viscosity, coulomb_bed;
   T bed_friction;
   // Interface.
   InterfacePair<T, D> interface;
-  T velocity_factor, mass_ratio;                     // xi, m_w / m_s
+  T velocity_factor, mass_ratio;  // xi, m_w / m_s
   bool image_gravity;
   // Domain.
   double low[D], high[D];
@@ -54,9 +55,9 @@ struct Parameters {
   int absorbing[4];
   double absorbing_width;
   T absorbing_rate, settle_rate;
-  T speed_limit;                                     // faster than this is a failed state
+  T speed_limit;  // faster than this is a failed state
   // Time step.
-  double cfl, fastest_wave, slowest_viscous;         // c, h / (alpha c) limit
+  double cfl, fastest_wave, slowest_viscous;  // c, h / (alpha c) limit
   bool verlet;
 
   Parameters() = default;
@@ -78,13 +79,14 @@ struct Parameters {
     continuity.diffusion = T(2 * p.density_diffusion * p.h * c);
     water_viscosity = ArtificialViscosity<T, D>(p.water_alpha, c, p.h);
 
-    const double cs = with_soil ? SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density) : 0;
+    const double cs =
+        with_soil ? SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density) : 0;
     soil = SoilMaterial<T>(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy, Cone(p.cone));
     soil_viscosity = ArtificialViscosity<T, D>(p.soil_alpha, cs, p.h);
     soil_density = T(p.soil_density), soil_mass = T(p.soil_density * v);
     stress_diffusion = T(2 * p.stress_diffusion * p.h * cs);
-    const double across_wet = p.pore_gradient > 0 && p.soil_density > 0
-                                  ? p.k0 + (1 - p.k0) * p.water_density / p.soil_density : p.k0;
+    const double across_wet =
+        p.pore_gradient > 0 && p.soil_density > 0 ? p.k0 + (1 - p.k0) * p.water_density / p.soil_density : p.k0;
     static_stress_dry = static_stress(p.soil_density, p.k0, g, g2);
     static_stress_wet = static_stress(p.soil_density, across_wet, g, g2);
     pore_gradient = T(p.pore_gradient);
@@ -131,16 +133,16 @@ struct WaterView {
   static constexpr int D = Tr::D;
   using T = typename Tr::T;
   int n = 0;
-  const int* start = nullptr;          // [cells + 1]
+  const int* start = nullptr;  // [cells + 1]
   const T* x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
   T* a[D] = {};
-  T* excess = nullptr;                 // rho - rho0
+  T* excess = nullptr;  // rho - rho0
   T* excess_next = nullptr;
-  T* term = nullptr;                   // p / rho^2
+  T* term = nullptr;  // p / rho^2
   unsigned* id = nullptr;
-  T* v_previous[D] = {};               // Verlet only
+  T* v_previous[D] = {};  // Verlet only
   T* excess_previous = nullptr;
   int* key = nullptr;
 };
@@ -158,9 +160,9 @@ struct SoilView {
   T* stress[Tr::S] = {};
   T* stress_next[Tr::S] = {};
   T* adps = nullptr;
-  T* image_term = nullptr;             // p/rho^2 and excess density of the water image (coupled scenes)
+  T* image_term = nullptr;  // p/rho^2 and excess density of the water image (coupled scenes)
   T* image_excess = nullptr;
-  T* artificial[Tr::S] = {};           // R of Eq. (7), where switched on
+  T* artificial[Tr::S] = {};  // R of Eq. (7), where switched on
   unsigned* id = nullptr;
   T* v_previous[D] = {};
   T* stress_previous[Tr::S] = {};
@@ -175,11 +177,11 @@ struct WallView {
   const int* start = nullptr;
   const T* x[D] = {};
   const T* normal[D] = {};
-  const T* weight = nullptr;           // V_b / dp^D
-  const T* slip = nullptr;             // 1 where soil slips freely
-  T* term = nullptr;                   // water: p/rho^2 and excess density
+  const T* weight = nullptr;  // V_b / dp^D
+  const T* slip = nullptr;    // 1 where soil slips freely
+  T* term = nullptr;          // water: p/rho^2 and excess density
   T* excess = nullptr;
-  T* v[D] = {};                        // soil: image velocity, image stress
+  T* v[D] = {};  // soil: image velocity, image stress
   T* stress[Tr::S] = {};
   unsigned* id = nullptr;
 };

@@ -80,12 +80,17 @@ class ParticleSimulation final : public Simulation {
     Array<int> order;
     template <class U>
     Array<U>& of(const Array<U>&) {
-      if constexpr (std::is_same_v<U, T>) return t;
-      else if constexpr (std::is_same_v<U, P>) return p;
-      else return id;
+      if constexpr (std::is_same_v<U, T>)
+        return t;
+      else if constexpr (std::is_same_v<U, P>)
+        return p;
+      else
+        return id;
     }
     template <class F>
-    void all(F&& f) { f(t, ""), f(p, ""), f(id, ""), f(order, ""); }
+    void all(F&& f) {
+      f(t, ""), f(p, ""), f(id, ""), f(order, "");
+    }
   };
   struct Water {
     Spare spare;
@@ -103,7 +108,8 @@ class ParticleSimulation final : public Simulation {
     }
     template <class F>
     void scratch(F&& f) {
-      if (two_positions) for (auto& q : x) f(q, "rounded position");
+      if (two_positions)
+        for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
       f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts");
     }
@@ -127,7 +133,8 @@ class ParticleSimulation final : public Simulation {
     }
     template <class F>
     void scratch(F&& f) {
-      if (two_positions) for (auto& q : x) f(q, "rounded position");
+      if (two_positions)
+        for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : stress_next) f(q, "next stress");
       f(image_term, "image pressure"), f(image_excess, "image density"), f(key, "cell"), f(start, "cell starts");
@@ -150,11 +157,16 @@ class ParticleSimulation final : public Simulation {
 
  public:
   ParticleSimulation(const ModelParameters& m, const InitialParticles& in, NumberType type, Backend backend = {})
-      : backend_(std::move(backend)), model_(m), type_(type), n_water_(int(in.n_water())), n_soil_(int(in.n_soil())),
-        n_wall_(int(in.n_wall())), p_(m, n_water_ > 0, n_soil_ > 0) {
+      : backend_(std::move(backend)),
+        model_(m),
+        type_(type),
+        n_water_(int(in.n_water())),
+        n_soil_(int(in.n_soil())),
+        n_wall_(int(in.n_wall())),
+        p_(m, n_water_ > 0, n_soil_ > 0) {
     double low[D], high[D];
     for (int k = 0; k < D; ++k) low[k] = p_.low[k], high[k] = p_.high[k];
-    for (int i = 0; i < n_wall_; ++i)      // the grid holds the walls, which reach beyond the domain
+    for (int i = 0; i < n_wall_; ++i)  // the grid holds the walls, which reach beyond the domain
       for (int k = 0; k < D; ++k) {
         const double x = in.wall_x[3 * std::size_t(i) + axis(k)];
         low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
@@ -259,9 +271,10 @@ class ParticleSimulation final : public Simulation {
     std::size_t next = 0;
     restart_arrays([&](auto& array, const std::string& name) {
       using U = std::remove_pointer_t<decltype(array.data())>;
-      LGIW_VALIDATE(next < arrays.size() && arrays[next].name == name && arrays[next].bytes.size() == array.size() * sizeof(U),
-                    "the checkpoint does not fit this run", "array '" + name + "' is missing or has another size",
-                    "resume with the case, particles and precision that wrote it");
+      LGIW_VALIDATE(
+          next < arrays.size() && arrays[next].name == name && arrays[next].bytes.size() == array.size() * sizeof(U),
+          "the checkpoint does not fit this run", "array '" + name + "' is missing or has another size",
+          "resume with the case, particles and precision that wrote it");
       backend_.upload(array, reinterpret_cast<const U*>(arrays[next].bytes.data()));
       ++next;
     });
@@ -281,7 +294,8 @@ class ParticleSimulation final : public Simulation {
     int64_t sum = 0;
     auto add = [&](const auto& q, const char*) { sum += int64_t(q.size() * sizeof(*q.data())); };
     auto& self = const_cast<ParticleSimulation&>(*this);
-    self.water_.carried(add), self.water_.scratch(add), self.soil_.carried(add), self.soil_.scratch(add), self.wall_.all(add);
+    self.water_.carried(add), self.water_.scratch(add), self.soil_.carried(add), self.soil_.scratch(add),
+        self.wall_.all(add);
     self.water_.spare.all(add), self.soil_.spare.all(add);
     return sum;
   }
@@ -294,7 +308,7 @@ class ParticleSimulation final : public Simulation {
 
  private:
   static int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
-  static int stress_axis(int c) {      // our component -> xx yy zz xy yz xz; 2-D: xx zz xz and yy out of plane
+  static int stress_axis(int c) {  // our component -> xx yy zz xy yz xz; 2-D: xx zz xz and yy out of plane
     constexpr int plane[4] = {0, 2, 5, 1};
     return D == 2 ? plane[c] : c;
   }
@@ -403,29 +417,32 @@ class ParticleSimulation final : public Simulation {
     finish(true);
   }
   void motion() {
-    if (n_water_) timed("motion", [&] {
-      Motion<Tr, true> f;
-      fill(f);
-      f.lost = &state_.data()->lost_water, f.failed = &state_.data()->failed_water;
-      backend_.for_each(n_water_, f);
-    });
-    if (n_soil_) timed("motion", [&] {
-      Motion<Tr, false> f;
-      fill(f);
-      f.lost = &state_.data()->lost_soil, f.failed = &state_.data()->failed_soil;
-      backend_.for_each(n_soil_, f);
-    });
+    if (n_water_)
+      timed("motion", [&] {
+        Motion<Tr, true> f;
+        fill(f);
+        f.lost = &state_.data()->lost_water, f.failed = &state_.data()->failed_water;
+        backend_.for_each(n_water_, f);
+      });
+    if (n_soil_)
+      timed("motion", [&] {
+        Motion<Tr, false> f;
+        fill(f);
+        f.lost = &state_.data()->lost_soil, f.failed = &state_.data()->failed_soil;
+        backend_.for_each(n_soil_, f);
+      });
     timed("sort", [&] { sort_phases(); });
   }
   void rates() {
     if (n_soil_ && n_wall_) run<WallVelocities<Tr>>("images", n_wall_);
-    if (n_water_) timed("water rates", [&] {
-      WaterRates<Tr> f;
-      fill(f);
-      f.failed = &state_.data()->failed_water;
-      backend_.for_each(n_water_, f);
-      water_.excess.swap(water_.excess_next);
-    });
+    if (n_water_)
+      timed("water rates", [&] {
+        WaterRates<Tr> f;
+        fill(f);
+        f.failed = &state_.data()->failed_water;
+        backend_.for_each(n_water_, f);
+        water_.excess.swap(water_.excess_next);
+      });
     if (n_soil_) {
       run<SoilRates<Tr>>("soil rates", n_soil_);
       for (int c = 0; c < S; ++c) soil_.stress[c].swap(soil_.stress_next[c]);
@@ -438,13 +455,13 @@ class ParticleSimulation final : public Simulation {
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
     if (n_soil_) {
-      if (p_.coulomb_bed) run_limits<SoilForces<Tr, true>>("soil forces", n_soil_);
-      else run_limits<SoilForces<Tr, false>>("soil forces", n_soil_);
+      if (p_.coulomb_bed)
+        run_limits<SoilForces<Tr, true>>("soil forces", n_soil_);
+      else
+        run_limits<SoilForces<Tr, false>>("soil forces", n_soil_);
     }
   }
-  void finish(bool advance) {
-    backend_.single(FinishStep<Tr>{p_, limits_.data(), state_.data(), advance});
-  }
+  void finish(bool advance) { backend_.single(FinishStep<Tr>{p_, limits_.data(), state_.data(), advance}); }
 
   void sort_phases() {
     if (n_water_) sort_phase(water_);
@@ -495,7 +512,8 @@ class ParticleSimulation final : public Simulation {
   /// Component k of interleaved vectors; zeros where there are none.
   static std::vector<T> component(const std::vector<float>& values, std::size_t n, int k) {
     std::vector<T> out(n, T(0));
-    if (!values.empty()) for (std::size_t i = 0; i < n; ++i) out[i] = T(values[3 * i + axis(k)]);
+    if (!values.empty())
+      for (std::size_t i = 0; i < n; ++i) out[i] = T(values[3 * i + axis(k)]);
     return out;
   }
   static std::vector<unsigned> ids(std::size_t n) {
@@ -543,8 +561,10 @@ class ParticleSimulation final : public Simulation {
     if (!w.n) return w;
     for (int k = 0; k < D; ++k) {
       w.position[k] = water_.position[k].data();
-      if constexpr (two_positions) w.x[k] = water_.x[k].data();
-      else w.x[k] = water_.position[k].data();
+      if constexpr (two_positions)
+        w.x[k] = water_.x[k].data();
+      else
+        w.x[k] = water_.position[k].data();
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
     w.start = water_.start.data(), w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data();
@@ -558,8 +578,10 @@ class ParticleSimulation final : public Simulation {
     if (!s.n) return s;
     for (int k = 0; k < D; ++k) {
       s.position[k] = soil_.position[k].data();
-      if constexpr (two_positions) s.x[k] = soil_.x[k].data();
-      else s.x[k] = soil_.position[k].data();
+      if constexpr (two_positions)
+        s.x[k] = soil_.x[k].data();
+      else
+        s.x[k] = soil_.position[k].data();
       s.v[k] = soil_.v[k].data(), s.a[k] = soil_.a[k].data(), s.v_previous[k] = soil_.v_previous[k].data();
     }
     for (int c = 0; c < S; ++c) {
@@ -590,11 +612,13 @@ class ParticleSimulation final : public Simulation {
     return out;
   }
   template <class Out, class In>
-  void interleave(std::vector<Out>& out, const Array<In>* field, const std::vector<unsigned>& id, double factor = 1) const {
+  void interleave(std::vector<Out>& out, const Array<In>* field, const std::vector<unsigned>& id,
+                  double factor = 1) const {
     out.assign(3 * id.size(), Out(0));
     for (int k = 0; k < D; ++k) {
       const auto values = host(field[k]);
-      for (std::size_t i = 0; i < id.size(); ++i) out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
+      for (std::size_t i = 0; i < id.size(); ++i)
+        out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
     }
   }
   void positions(std::vector<double>& out, const Array<P>* field, const std::vector<unsigned>& id) const {
@@ -623,15 +647,22 @@ class ParticleSimulation final : public Simulation {
     return out;
   }
 
-  /// Everything that a step reads from the one before, in the sorted order, so that a resumed run repeats the same sums.
+  /// Everything that a step reads from the one before, in the sorted order, so that a resumed run repeats the same
+  /// sums.
   template <class F>
   void restart_arrays(F&& f) {
     f(state_, "state");
-    water_.carried([&](auto& q, const char* name) { if (q.size()) f(q, std::string("water ") + name); });
-    for (auto& q : water_.a) if (q.size()) f(q, "water acceleration");
+    water_.carried([&](auto& q, const char* name) {
+      if (q.size()) f(q, std::string("water ") + name);
+    });
+    for (auto& q : water_.a)
+      if (q.size()) f(q, "water acceleration");
     if (n_water_) f(water_.start, "water cell starts");
-    soil_.carried([&](auto& q, const char* name) { if (q.size()) f(q, std::string("soil ") + name); });
-    for (auto& q : soil_.a) if (q.size()) f(q, "soil acceleration");
+    soil_.carried([&](auto& q, const char* name) {
+      if (q.size()) f(q, std::string("soil ") + name);
+    });
+    for (auto& q : soil_.a)
+      if (q.size()) f(q, "soil acceleration");
     if (n_soil_) f(soil_.start, "soil cell starts");
   }
 
@@ -660,16 +691,21 @@ std::vector<std::string> ParticleSimulation<Backend, Tr>::left_out() const {
   const double t = sizeof(T), soil = n_soil_, water = n_water_, wall = n_wall_;
   // A code with one set of arrays for all particles would hold the soil's fields for every water and wall particle.
   const double soil_fields = (3 * S + 1) * t;
-  if (!n_soil_) out.push_back("soil (stress, Adps, soil and interface kernels): " + mebibytes((water + wall) * soil_fields));
-  if (!n_water_) out.push_back("water (density, pressure, water and interface kernels): " + mebibytes((soil + wall) * 3 * t));
+  if (!n_soil_)
+    out.push_back("soil (stress, Adps, soil and interface kernels): " + mebibytes((water + wall) * soil_fields));
+  if (!n_water_)
+    out.push_back("water (density, pressure, water and interface kernels): " + mebibytes((soil + wall) * 3 * t));
   if (n_soil_ && n_water_) out.push_back("stress and Adps of water particles: " + mebibytes(water * soil_fields));
-  if (D == 2) out.push_back("the y direction (velocity, acceleration, two shear stresses): " +
-                            mebibytes(((water + soil) * 3 + soil * 4) * t));
+  if (D == 2)
+    out.push_back("the y direction (velocity, acceleration, two shear stresses): " +
+                  mebibytes(((water + soil) * 3 + soil * 4) * t));
   if (n_water_ && !p_.density_diffusion) out.push_back("density diffusion: its part of the pair loop");
   if (n_soil_ && !(p_.stress_diffusion > 0)) out.push_back("stress diffusion: its part of the pair loop");
   if (n_soil_ && !(p_.artificial_stress > 0)) out.push_back("artificial stress: " + mebibytes(soil * S * t));
-  if (!p_.verlet) out.push_back("previous step's fields (Verlet): " + mebibytes((water * (D + 1) + soil * (D + S)) * t));
-  if (n_soil_ && n_water_ && !(p_.interface.repulsion.strength > 0)) out.push_back("interface repulsion: its part of the pair loop");
+  if (!p_.verlet)
+    out.push_back("previous step's fields (Verlet): " + mebibytes((water * (D + 1) + soil * (D + S)) * t));
+  if (n_soil_ && n_water_ && !(p_.interface.repulsion.strength > 0))
+    out.push_back("interface repulsion: its part of the pair loop");
   if (n_soil_ && !p_.coulomb_bed) out.push_back("Coulomb friction limit at the bed");
   if (!n_wall_) out.push_back("walls");
   return out;

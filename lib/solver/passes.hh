@@ -1,6 +1,6 @@
 // The passes over particles that make a time step. Each is a functor over one particle's index that gathers from its
-// neighbours; the backends differ only in how they run it for all indices. Inner loops hold no branch on the phase: a phase
-// or feature that the scene lacks is skipped outside them.
+// neighbours; the backends differ only in how they run it for all indices. Inner loops hold no branch on the phase: a
+// phase or feature that the scene lacks is skipped outside them.
 #pragma once
 
 #include "solver/parameters.hh"
@@ -13,7 +13,8 @@ namespace lgiw {
 #if defined(__CUDA_ARCH__)
 #define LGIW_PAIR_LOOP _Pragma("unroll 1")
 #define LGIW_ROW_LOOP _Pragma("unroll 1")
-#define LGIW_SKIP_FAR(r2, support2) if (r2 >= support2) continue
+#define LGIW_SKIP_FAR(r2, support2) \
+  if (r2 >= support2) continue
 #else
 #define LGIW_PAIR_LOOP _Pragma("GCC ivdep")
 #define LGIW_ROW_LOOP
@@ -55,37 +56,72 @@ struct Pass {
   static LGIW_FN void store_stress(T* const* a, int i, const Stress<T, D>& s) {
     for (int k = 0; k < S; ++k) a[k][i] = s.c[k];
   }
-  /// True once the target time is reached or a particle has failed: what a device still has queued then changes nothing.
+  /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2. Those
+  /// beyond the kernel's support may come too, and x itself with r = 0: every pair law is zero for them.
+  template <class View, class F>
+  LGIW_FN void for_each_near(const View& view, int cell, const V& x, const F& f) const {
+    LGIW_ROW_LOOP
+    for (int k = 0; k < Grid<T, D>::rows; ++k) {
+      int begin, end;
+      grid.row(view.start, cell, k, begin, end);
+      LGIW_PAIR_LOOP
+      for (int j = begin; j < end; ++j) {
+        const V r = x - load(view.x, j);
+        const T r2 = dot(r, r);
+        LGIW_SKIP_FAR(r2, support2());
+        f(j, r, r2);
+      }
+    }
+  }
+
+  /// True once the target time is reached or a particle has failed: what a device still has queued then changes
+  /// nothing.
   LGIW_FN bool idle() const {
     return !(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX;
   }
   LGIW_FN T support2() const { return 4 * parameters.h * parameters.h; }
-  LGIW_FN T pore_pressure(T z) const { return largest(T(0), parameters.pore_gradient * (parameters.still_water_level - z)); }
+  LGIW_FN T pore_pressure(T z) const {
+    return largest(T(0), parameters.pore_gradient * (parameters.still_water_level - z));
+  }
 };
+
+/// Keeps the smallest id of a particle whose state has failed.
+LGIW_FN void note_failure(unsigned* failed, unsigned id) {
+#if defined(__CUDA_ARCH__)
+  atomicMin(failed, id);
+#else
+#pragma omp critical(lgiw_failed_particle)
+  if (id < *failed) *failed = id;
+#endif
+}
 
 /// Largest values that limit the time step.
 template <class T>
 struct Limits {
-  T acceleration2 = 0, mu = 0;   // |a|^2, |mu_ij|
+  T acceleration2 = 0, mu = 0;  // |a|^2, |mu_ij|
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Motion
 
-/// Advances velocity and position, marks what has left the domain, finds states that have failed, and sets the sort key.
-/// Leapfrog: v^{n+1/2} = v^{n-1/2} + (dt_n + dt_{n-1})/2 a^n, r^{n+1} = r^n + dt_n v^{n+1/2}. Verlet: physics.md section 9.
+/// Advances velocity and position, marks what has left the domain, finds states that have failed, and sets the sort
+/// key. Leapfrog: v^{n+1/2} = v^{n-1/2} + (dt_n + dt_{n-1})/2 a^n, r^{n+1} = r^n + dt_n v^{n+1/2}. Verlet: physics.md
+/// section 9.
 template <class Tr, bool is_water>
 struct Motion : Pass<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
   using P = typename Tr::P;
   static constexpr int D = Tr::D;
-  int* lost;                        // counter in the state
-  unsigned* failed;                 // smallest failed id
+  int* lost;         // counter in the state
+  unsigned* failed;  // smallest failed id
 
   /// |x| < limit, written so that it also holds under -ffinite-math-only: a NaN or infinity has the largest exponent.
   static LGIW_FN bool sound(double x, double limit) {
-    union { double d; unsigned long long u; } bits{x};
+    union {
+      double d;
+      unsigned long long u;
+    } bits{x};
     return ((bits.u >> 52) & 0x7ff) != 0x7ff && x < limit && x > -limit;
   }
 
@@ -94,7 +130,7 @@ struct Motion : Pass<Tr> {
     const StepState& st = *this->state;
     const auto& p = this->parameters;
     if (this->idle()) return;
-    if (i >= w.start[this->grid.cells]) {   // lost earlier: stays where it was last
+    if (i >= w.start[this->grid.cells]) {  // lost earlier: stays where it was last
       w.key[i] = this->grid.cells;
       return;
     }
@@ -129,7 +165,7 @@ struct Motion : Pass<Tr> {
     }
     fine = fine && sound(speed2, double(p.speed_limit) * double(p.speed_limit));
     if (!fine) {
-      fail(w.id[i]);
+      note_failure(failed, w.id[i]);
       w.key[i] = this->grid.cells;
       return;
     }
@@ -142,22 +178,16 @@ struct Motion : Pass<Tr> {
       count_lost();
       w.key[i] = this->grid.cells;
     } else {
-      Vec<T, D> rounded;                    // the passes look for their cell with positions in T
+      Vec<T, D> rounded;  // the passes look for their cell with positions in T
       for (int k = 0; k < D; ++k) rounded.c[k] = T(x.c[k]);
       w.key[i] = this->grid.cell(rounded);
     }
   }
   LGIW_FN void operator()(int i) const {
-    if constexpr (is_water) move(this->water, i);
-    else move(this->soil, i);
-  }
-  LGIW_FN void fail(unsigned id) const {
-#if defined(__CUDA_ARCH__)
-    atomicMin(failed, id);
-#else
-#pragma omp critical(lgiw_failed_particle)
-    if (id < *failed) *failed = id;
-#endif
+    if constexpr (is_water)
+      move(this->water, i);
+    else
+      move(this->soil, i);
   }
   LGIW_FN void count_lost() const {
 #if defined(__CUDA_ARCH__)
@@ -187,25 +217,16 @@ struct WaterRates : Pass<Tr> {
     const auto& p = this->parameters;
     const T e_i = w.excess[i];
     T rate = 0;
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(w.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(w.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const V v_ij = v - B::load(w.v, j);
-        const T f = p.kernel.gradient(square_root(r2));
-        if constexpr (diffusion) {
-          const T e_j = w.excess[j];
-          rate += p.continuity(r, v_ij, f, e_i, e_j, p.eos.rho0 + e_j);
-        } else {
-          rate += p.continuity(r, v_ij, f);
-        }
+    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ij = v - B::load(w.v, j);
+      const T f = p.kernel.gradient(square_root(r2));
+      if constexpr (diffusion) {
+        const T e_j = w.excess[j];
+        rate += p.continuity(r, v_ij, f, e_i, e_j, p.eos.rho0 + e_j);
+      } else {
+        rate += p.continuity(r, v_ij, f);
       }
-    }
+    });
     return rate;
   }
 
@@ -220,34 +241,16 @@ struct WaterRates : Pass<Tr> {
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
     if (this->wall.n) {
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(this->wall.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(this->wall.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          rate += this->wall.weight[j] * p.continuity(r, v, p.kernel.gradient(square_root(r2)));
-        }
-      }
+      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
+        rate += this->wall.weight[j] * p.continuity(r, v, p.kernel.gradient(square_root(r2)));
+      });
     }
     if (this->soil.n) {
       T sum = 0;
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(this->soil.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(this->soil.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          const V v_ws = v - B::load(this->soil.v, j);
-          sum += p.continuity(r, v_ws, p.kernel.gradient(square_root(r2)));
-        }
-      }
+      this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
+        const V v_ws = v - B::load(this->soil.v, j);
+        sum += p.continuity(r, v_ws, p.kernel.gradient(square_root(r2)));
+      });
       rate += p.velocity_factor * sum;
     }
     const StepState& st = *this->state;
@@ -261,12 +264,7 @@ struct WaterRates : Pass<Tr> {
     }
     // Half or twice the reference density is no water any more.
     if (!Motion<Tr, true>::sound(double(next), 0.5 * double(p.eos.rho0))) {
-#if defined(__CUDA_ARCH__)
-      atomicMin(failed, w.id[i]);
-#else
-#pragma omp critical(lgiw_failed_particle)
-      if (w.id[i] < *failed) *failed = w.id[i];
-#endif
+      note_failure(failed, w.id[i]);
       next = w.excess[i];
     }
     w.excess_next[i] = next;
@@ -275,7 +273,8 @@ struct WaterRates : Pass<Tr> {
   }
 };
 
-/// Velocity images at the walls for the soil's velocity gradient: -v_mean on rough walls, the mirror image on slipping ones.
+/// Velocity images at the walls for the soil's velocity gradient: -v_mean on rough walls, the mirror image on slipping
+/// ones.
 template <class Tr>
 struct WallVelocities : Pass<Tr> {
   using B = Pass<Tr>;
@@ -290,20 +289,11 @@ struct WallVelocities : Pass<Tr> {
     const V x = B::load(b.x, i);
     V sum{};
     T weight = 0;
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(s.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(s.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const T w = this->parameters.kernel.value(square_root(r2));
-        weight += w;
-        add_scaled(sum, w, B::load(s.v, j));
-      }
-    }
+    this->for_each_near(s, cell, x, [&](int j, const V&, T r2) {
+      const T w = this->parameters.kernel.value(square_root(r2));
+      weight += w;
+      add_scaled(sum, w, B::load(s.v, j));
+    });
     V image{};
     if (weight > 0) {
       const V mean = (1 / weight) * sum, n = B::load(b.normal, i);
@@ -328,25 +318,16 @@ struct SoilRates : Pass<Tr> {
                          Stress<T, D>& smoothing) const {
     const auto& s = this->soil;
     const auto& p = this->parameters;
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(s.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(s.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const V v_ji = B::load(s.v, j) - v;
-        const T f = p.kernel.gradient(square_root(r2));
-        for (int a = 0; a < D; ++a)
-          for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
-        if constexpr (diffusion) {
-          const T g = dot(p.gravity, r);
-          for (int c = 0; c < S; ++c) smoothing.c[c] -= (s.stress[c][j] - sigma.c[c] - g * at_rest.c[c]) * f;
-        }
+    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ji = B::load(s.v, j) - v;
+      const T f = p.kernel.gradient(square_root(r2));
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      if constexpr (diffusion) {
+        const T g = dot(p.gravity, r);
+        for (int c = 0; c < S; ++c) smoothing.c[c] -= (s.stress[c][j] - sigma.c[c] - g * at_rest.c[c]) * f;
       }
-    }
+    });
   }
 
   LGIW_FN void operator()(int i) const {
@@ -370,21 +351,12 @@ struct SoilRates : Pass<Tr> {
     else
       over_soil<false>(cell, x, v, sigma, p.static_stress_dry, l, smoothing);
     if (this->wall.n) {
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(this->wall.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(this->wall.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          const V v_ji = B::load(this->wall.v, j) - v;
-          const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
-          for (int a = 0; a < D; ++a)
-            for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
-        }
-      }
+      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
+        const V v_ji = B::load(this->wall.v, j) - v;
+        const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      });
     }
     for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
     const bool euler = !p.verlet || st.euler_countdown == 0;
@@ -422,22 +394,13 @@ struct WaterImage : Pass<Tr> {
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
     V moment{};
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(w.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(w.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const T rho = p.eos.rho0 + w.excess[j];
-        const T kernel = p.kernel.value(square_root(r2));
-        weight += kernel / rho;                    // V_w = m_w / rho_w; the mass cancels
-        sum += kernel * rho * w.term[j];           // V p = m rho (p / rho^2)
-        add_scaled(moment, kernel, r);             // V rho = m
-      }
-    }
+    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+      const T rho = p.eos.rho0 + w.excess[j];
+      const T kernel = p.kernel.value(square_root(r2));
+      weight += kernel / rho;           // V_w = m_w / rho_w; the mass cancels
+      sum += kernel * rho * w.term[j];  // V p = m rho (p / rho^2)
+      add_scaled(moment, kernel, r);    // V rho = m
+    });
     if (!(weight > 0)) return 0;
     return (sum + (with_gravity ? dot(p.gravity, moment) : T(0))) / weight;
   }
@@ -471,21 +434,12 @@ struct WallImages : WaterImage<Tr> {
     Stress<T, D> sum;
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
     T weight = 0, moment = 0;
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(s.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(s.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const T kernel = p.kernel.value(square_root(r2));
-        weight += kernel;
-        moment += kernel * dot(p.gravity, r);
-        for (int c = 0; c < S; ++c) sum.c[c] += kernel * s.stress[c][j];
-      }
-    }
+    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+      const T kernel = p.kernel.value(square_root(r2));
+      weight += kernel;
+      moment += kernel * dot(p.gravity, r);
+      for (int c = 0; c < S; ++c) sum.c[c] += kernel * s.stress[c][j];
+    });
     if (!(weight > 0)) return sum;
     const Stress<T, D>& at_rest = this->pore_pressure(x.c[D - 1]) > 0 ? p.static_stress_wet : p.static_stress_dry;
     for (int c = 0; c < S; ++c) sum.c[c] = (sum.c[c] - moment * at_rest.c[c]) / weight;
@@ -503,8 +457,7 @@ struct SoilImages : WaterImage<Tr> {
     const auto& s = this->soil;
     const auto& p = this->parameters;
     T pressure = 0;
-    if (i < s.start[this->grid.cells])
-      pressure = this->pressure(this->cell_of(s, i), B::load(s.x, i), p.image_gravity);
+    if (i < s.start[this->grid.cells]) pressure = this->pressure(this->cell_of(s, i), B::load(s.x, i), p.image_gravity);
     const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
     s.image_excess[i] = excess;
     s.image_term[i] = pressure / (rho * rho);
@@ -518,7 +471,7 @@ struct SoilImages : WaterImage<Tr> {
 template <class Tr>
 LGIW_FN typename Tr::T absorbing_rate(const Parameters<Tr>& p, double x, double y) {
   using T = typename Tr::T;
-  double depth = 0;                                        // 0 at the inner edge of the zone, 1 at the side
+  double depth = 0;  // 0 at the inner edge of the zone, 1 at the side
   const double distance[4] = {x - p.side_at[0], p.side_at[1] - x, y - p.side_at[2], p.side_at[3] - y};
   for (int s = 0; s < 4; ++s)
     if (p.absorbing[s]) depth = largest(depth, 1 - distance[s] / p.absorbing_width);
@@ -542,59 +495,32 @@ struct WaterForces : Pass<Tr> {
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
     V a{};
     T mu_max = 0;
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(w.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(w.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const V v_ij = v - B::load(w.v, j);
-        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
-        const T f = p.kernel.gradient(square_root(r2));
-        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-        add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
-      }
-    }
+    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ij = v - B::load(w.v, j);
+      const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+      const T f = p.kernel.gradient(square_root(r2));
+      mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+      add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
+    });
     if (this->wall.n) {
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(this->wall.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(this->wall.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          const T mu = p.water_viscosity.mu(dot(v, r), r2);
-          const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
-          const T rho_mean = T(0.5) * (rho_i + rho0 + this->wall.excess[j]);
-          add_scaled(a, -(term_i + this->wall.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
-        }
-      }
+      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
+        const T mu = p.water_viscosity.mu(dot(v, r), r2);
+        const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
+        const T rho_mean = T(0.5) * (rho_i + rho0 + this->wall.excess[j]);
+        add_scaled(a, -(term_i + this->wall.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
+      });
     }
     a = p.water_mass * a;
     if (this->soil.n) {
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(this->soil.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(this->soil.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          const V v_ij = v - B::load(this->soil.v, j);
-          const T distance = square_root(r2);
-          const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
-          const T f = p.kernel.gradient(distance);
-          mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-          const T rho_mean = T(0.5) * (rho_i + rho0 + this->soil.image_excess[j]);
-          add_scaled(a, p.interface(distance, r2, f, mu, term_i, this->soil.image_term[j], rho_mean), r);
-        }
-      }
+      this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
+        const V v_ij = v - B::load(this->soil.v, j);
+        const T distance = square_root(r2);
+        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+        const T f = p.kernel.gradient(distance);
+        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+        const T rho_mean = T(0.5) * (rho_i + rho0 + this->soil.image_excess[j]);
+        add_scaled(a, p.interface(distance, r2, f, mu, term_i, this->soil.image_term[j], rho_mean), r);
+      });
     }
     for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
     if (p.absorbing_rate > 0) add_scaled(a, -absorbing_rate(p, double(x.c[0]), D == 3 ? double(x.c[1]) : 0.0), v);
@@ -617,32 +543,23 @@ struct SoilForces : Pass<Tr> {
     const auto& s = this->soil;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const Stress<T, D> own = artificial ? B::load_stress(s.artificial, i) : Stress<T, D>{};
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(s.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(s.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, this->support2());
-        const V v_ij = v - B::load(s.v, j);
-        const T mu = p.soil_viscosity.mu(dot(v_ij, r), r2);
-        const T distance = square_root(r2);
-        const T f = p.kernel.gradient(distance);
-        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-        const T viscous = p.soil_viscosity(mu, p.soil_density);
-        Stress<T, D> sum;
-        for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
-        if constexpr (artificial) {
-          const T ratio = p.kernel.value(distance) * p.inverse_w_dp;
-          const T weight = std::pow(ratio, T(2.55));       // F^n, n = 2.55
-          for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
-        }
-        add_scaled(a, f, apply(sum, r));
-        add_scaled(a, -f * viscous, r);
+    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ij = v - B::load(s.v, j);
+      const T mu = p.soil_viscosity.mu(dot(v_ij, r), r2);
+      const T distance = square_root(r2);
+      const T f = p.kernel.gradient(distance);
+      mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
+      const T viscous = p.soil_viscosity(mu, p.soil_density);
+      Stress<T, D> sum;
+      for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
+      if constexpr (artificial) {
+        const T ratio = p.kernel.value(distance) * p.inverse_w_dp;
+        const T weight = std::pow(ratio, T(2.55));  // F^n, n = 2.55
+        for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
       }
-    }
+      add_scaled(a, f, apply(sum, r));
+      add_scaled(a, -f * viscous, r);
+    });
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -654,31 +571,25 @@ struct SoilForces : Pass<Tr> {
     const Stress<T, D> sigma = B::load_stress(s.stress, i);
     V a{};
     T mu_max = 0;
-    if (p.artificial_stress > 0) over_soil<true>(i, cell, x, v, sigma, a, mu_max);
-    else over_soil<false>(i, cell, x, v, sigma, a, mu_max);
+    if (p.artificial_stress > 0)
+      over_soil<true>(i, cell, x, v, sigma, a, mu_max);
+    else
+      over_soil<false>(i, cell, x, v, sigma, a, mu_max);
     if (this->wall.n) over_walls(cell, x, v, sigma, a);
     a = p.soil_mass * a;
     if (this->water.n) {
       const auto& w = this->water;
       const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
       V sum{};
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        this->grid.row(w.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
-          const V r = x - B::load(w.x, j);                 // the law is written for water minus soil: odd in r
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, this->support2());
-          const V v_ij = v - B::load(w.v, j);
-          const T distance = square_root(r2);
-          const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
-          const T f = p.kernel.gradient(distance);
-          const T rho_mean = T(0.5) * (rho_image + rho0 + w.excess[j]);
-          add_scaled(sum, p.interface(distance, r2, f, mu, w.term[j], image_term, rho_mean), r);
-        }
-      }
+      this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+        // the law is written for water minus soil: odd in r
+        const V v_ij = v - B::load(w.v, j);
+        const T distance = square_root(r2);
+        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+        const T f = p.kernel.gradient(distance);
+        const T rho_mean = T(0.5) * (rho_image + rho0 + w.excess[j]);
+        add_scaled(sum, p.interface(distance, r2, f, mu, w.term[j], image_term, rho_mean), r);
+      });
       add_scaled(a, p.mass_ratio, sum);
     }
     for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
@@ -693,32 +604,25 @@ struct SoilForces : Pass<Tr> {
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const T viscosity_on = p.wall_viscosity ? T(1) : T(0);
     V bed{}, slipping{}, into_wall{};
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      this->grid.row(b.start, cell, k, begin, end);
-      LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
-        const V r = x - B::load(b.x, j), n = B::load(b.normal, j);
-        const T r2 = dot(r, r), slip = b.slip[j];
-        LGIW_SKIP_FAR(r2, this->support2());
-        // A slipping wall resists approach only.
-        const T vr = (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
-        const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
-        const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
-        Stress<T, D> sum;
-        for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
-        V force = f * apply(sum, r);
-        add_scaled(force, -f * viscous, r);
-        if constexpr (coulomb) {
-          add_scaled(bed, 1 - slip, force);
-          add_scaled(slipping, slip, force);
-          add_scaled(into_wall, (1 - slip) * f, r);
-        } else {
-          add_scaled(bed, T(1), force);
-        }
+    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
+      const V n = B::load(b.normal, j);
+      const T slip = b.slip[j];
+      // A slipping wall resists approach only.
+      const T vr = (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
+      const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
+      const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
+      Stress<T, D> sum;
+      for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
+      V force = f * apply(sum, r);
+      add_scaled(force, -f * viscous, r);
+      if constexpr (coulomb) {
+        add_scaled(bed, 1 - slip, force);
+        add_scaled(slipping, slip, force);
+        add_scaled(into_wall, (1 - slip) * f, r);
+      } else {
+        add_scaled(bed, T(1), force);
       }
-    }
+    });
     if constexpr (coulomb) {
       const T length2 = dot(into_wall, into_wall);
       if (length2 > 0) {
@@ -741,8 +645,8 @@ struct SoilForces : Pass<Tr> {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// The new time step, Eq. (21) with the soil's wave speed and a viscous limit, and the step's bookkeeping. `advance`: a step
-/// has just been completed; else (start, after settling) only dt is set.
+/// The new time step, Eq. (21) with the soil's wave speed and a viscous limit, and the step's bookkeeping. `advance`: a
+/// step has just been completed; else (start, after settling) only dt is set.
 template <class Tr>
 LGIW_FN void finish_step(const Parameters<Tr>& p, const Limits<typename Tr::T>& limits, bool advance, StepState& st) {
   const double h = double(p.h);

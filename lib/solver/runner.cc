@@ -48,7 +48,8 @@ class SignalGuard {
   }
 
  private:
-  struct sigaction old_int_ {}, old_term_ {};
+  struct sigaction old_int_ {
+  }, old_term_{};
 };
 
 const char* limit_name(int limit) { return limit == 0 ? "acoustic" : (limit == 1 ? "force" : "viscous"); }
@@ -73,7 +74,9 @@ std::unique_ptr<Simulation> make_simulation(const Case& c, const ModelParameters
 SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
   SurfaceMap m;
   m.dx = c.output.map_spacing > 0 ? c.output.map_spacing : h.dp;
-  const auto cells = [&](double low, double high) { return std::max<std::size_t>(1, std::size_t((high - low) / m.dx + 1e-9)); };
+  const auto cells = [&](double low, double high) {
+    return std::max<std::size_t>(1, std::size_t((high - low) / m.dx + 1e-9));
+  };
   m.nx = cells(h.low[0], h.high[0]);
   m.x0 = h.low[0] + 0.5 * m.dx;
   m.ny = h.dimension == 3 ? cells(h.low[1], h.high[1]) : 1;
@@ -92,8 +95,10 @@ class Runner {
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
     last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
     identity_ = identity(data);
-    if (options.resume) resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
-    else refuse_unfinished();
+    if (options.resume)
+      resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
+    else
+      refuse_unfinished();
     initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
     simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
     log("model: " + simulation_->description());
@@ -104,8 +109,10 @@ class Runner {
   std::string run() {
     SignalGuard guard;
     start_ = Clock::now();
-    if (options_.resume) resume();
-    else open();
+    if (options_.resume)
+      resume();
+    else
+      open();
     checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
     if (outputs_ == 0) {
       settle();
@@ -137,9 +144,11 @@ class Runner {
       return sha256_of_text(std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v[0])));
     };
     std::ostringstream s;
-    s << case_.text << '\n' << header_.case_text << '\n' << int(case_.numerics.precision) << ' ' << header_.sound_speed << hash(data.water.points) << hash(data.water.pressure)
-      << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points) << hash(data.wall.volume) << hash(data.wall.normal)
-      << hash(data.wall.kind);
+    s << case_.text << '\n'
+      << header_.case_text << '\n'
+      << int(case_.numerics.precision) << ' ' << header_.sound_speed << hash(data.water.points)
+      << hash(data.water.pressure) << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points)
+      << hash(data.wall.volume) << hash(data.wall.normal) << hash(data.wall.kind);
     return sha256_of_text(s.str());
   }
 
@@ -148,18 +157,19 @@ class Runner {
     s.precision(4);
     const StepState st = simulation_->state();
     s << "particles: " << header_.counts.water << " water, " << header_.counts.soil << " soil, " << header_.counts.wall
-      << " wall (" << header_.counts.wall_left_out << " wall particles left out); " << simulation_->bytes() / double(1 << 20)
-      << " MiB; ";
+      << " wall (" << header_.counts.wall_left_out << " wall particles left out); "
+      << simulation_->bytes() / double(1 << 20) << " MiB; ";
     if (header_.counts.water) s << "water c " << model_.sound_speed << " m/s; ";
     if (header_.counts.soil)
-      s << "soil c " << SoilMaterial<double>::wave_speed(model_.young_modulus, model_.poisson_ratio, model_.soil_density)
+      s << "soil c "
+        << SoilMaterial<double>::wave_speed(model_.young_modulus, model_.poisson_ratio, model_.soil_density)
         << " m/s, alpha " << model_.soil_alpha << "; ";
     s << "first time step " << st.dt << " s, limited by the " << limit_name(st.limit) << " condition";
     log(s.str());
   }
 
   void open() {
-    for (const std::string& path : checkpoints()) fs::remove(path);   // of an earlier run: no state of this one
+    for (const std::string& path : checkpoints()) fs::remove(path);  // of an earlier run: no state of this one
     RunHeader h;
     h.particles = header_;
     h.particles.case_text = case_.text;
@@ -175,7 +185,7 @@ class Runner {
   void settle() {
     const double duration = case_.numerics.settle_time;
     if (!(duration > 0) || !header_.counts.water) return;
-    if (!simulation_->state().settling) simulation_->settle(true);   // set in a resumed run
+    if (!simulation_->state().settling) simulation_->settle(true);  // set in a resumed run
     advance_to(duration);
     const StepState st = simulation_->state();
     extremes_["settle_steps"] = double(st.step);
@@ -201,8 +211,10 @@ class Runner {
       check(st);
       steps_taken_ += st.step - before, seconds_taken_ += seconds;
       // As many steps at a stroke as keep signals and progress prompt.
-      if (seconds < 0.1) batch_ = std::min<int64_t>(2 * batch_, 1000);
-      else if (seconds > 0.4) batch_ = std::max<int64_t>(batch_ / 2, 1);
+      if (seconds < 0.1)
+        batch_ = std::min<int64_t>(2 * batch_, 1000);
+      else if (seconds > 0.4)
+        batch_ = std::max<int64_t>(batch_ / 2, 1);
       if (caught_signal) {
         checkpoint();
         throw Interrupted{caught_signal};
@@ -243,8 +255,8 @@ class Runner {
     if (!options_.progress) return;
     const double rate = double(steps_taken_) * double(header_.counts.total()) / std::max(seconds_taken_, 1e-9);
     char note[160];
-    std::snprintf(note, sizeof note, "%s %.2f s, dt %.3g s (%s), %.2f M particle-steps/s", st.settling ? "settling" : "t",
-                  st.time, st.dt, limit_name(st.limit), rate / 1e6);
+    std::snprintf(note, sizeof note, "%s %.2f s, dt %.3g s (%s), %.2f M particle-steps/s",
+                  st.settling ? "settling" : "t", st.time, st.dt, limit_name(st.limit), rate / 1e6);
     options_.progress(st.settling ? 0 : std::min(1.0, st.time / case_.output.end_time), note);
   }
 
@@ -269,7 +281,8 @@ class Runner {
     columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
     for (int side = 0; side < 4; ++side) {
       if (header_.sides[side] == Side::open || (side >= 2 && header_.dimension == 2)) continue;
-      (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] = side % 2 ? header_.high[side / 2] : header_.low[side / 2];
+      (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] =
+          side % 2 ? header_.high[side / 2] : header_.low[side / 2];
     }
     const ColumnSurfaces surfaces = column_surfaces(columns, map_, header_.bed);
     writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil);
@@ -278,8 +291,10 @@ class Runner {
     const auto row = diagnose(model_, s, st, header_.bed);
     writer_->add_diagnostics(st.time, row);
     for (const auto& [name, value] : row)
-      if (name.compare(0, 4, "max_") == 0) extremes_[name] = std::max(extremes_[name], value);
-      else extremes_["last_" + name] = value;
+      if (name.compare(0, 4, "max_") == 0)
+        extremes_[name] = std::max(extremes_[name], value);
+      else
+        extremes_["last_" + name] = value;
 
     if (outputs_ % per_frame_ == 0 || outputs_ == last_output_) {
       if (nw) {
@@ -311,7 +326,8 @@ class Runner {
       for (std::size_t i = 0; i < arrival.size(); ++i) {
         if (std::isfinite(arrival[i]) || !std::isfinite(s.water[i])) continue;
         const bool was_dry = !std::isfinite(initial_elevation_[i]);
-        if ((was_dry && s.depth[i] > arrival_threshold_) || std::fabs(s.water[i] - initial_elevation_[i]) > arrival_threshold_)
+        if ((was_dry && s.depth[i] > arrival_threshold_) ||
+            std::fabs(s.water[i] - initial_elevation_[i]) > arrival_threshold_)
           arrival[i] = float(time);
       }
     }
@@ -323,7 +339,8 @@ class Runner {
     writer_->flush();
     Checkpoint c;
     c.identity = identity_;
-    c.outputs = outputs_, c.frames = writer_->frames(), c.surfaces = writer_->surfaces(), c.diagnostics = writer_->diagnostics();
+    c.outputs = outputs_, c.frames = writer_->frames(), c.surfaces = writer_->surfaces(),
+    c.diagnostics = writer_->diagnostics();
     c.wall_time = elapsed();
     c.extremes = extremes_, c.maxima = maxima_, c.initial_elevation = initial_elevation_;
     c.arrays = simulation_->save();
@@ -335,8 +352,10 @@ class Runner {
     Checkpoint c = std::move(resumed_);
     simulation_->restore(c.arrays);
     outputs_ = c.outputs, earlier_ = c.wall_time;
-    extremes_ = std::move(c.extremes), maxima_ = std::move(c.maxima), initial_elevation_ = std::move(c.initial_elevation);
-    writer_ = std::make_unique<RunWriter>(RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
+    extremes_ = std::move(c.extremes), maxima_ = std::move(c.maxima),
+    initial_elevation_ = std::move(c.initial_elevation);
+    writer_ = std::make_unique<RunWriter>(
+        RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
     char line[120];
     const StepState st = simulation_->state();
     std::snprintf(line, sizeof line, "resumed at %s %.4f s, step %lld", st.settling ? "settling time" : "t =", st.time,
@@ -353,7 +372,9 @@ class Runner {
                                  double(header_.counts.soil) * model_.soil_density);
     nlohmann::ordered_json j;
     j["case"] = case_.name;
-    j["particles"] = {{"water", header_.counts.water}, {"soil", header_.counts.soil}, {"wall", header_.counts.wall},
+    j["particles"] = {{"water", header_.counts.water},
+                      {"soil", header_.counts.soil},
+                      {"wall", header_.counts.wall},
                       {"left_out", header_.counts.wall_left_out}};
     j["steps"] = st.step;
     j["end_time_s"] = st.time;
@@ -432,8 +453,10 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   const double steps = (c.output.end_time + c.numerics.settle_time) / dt;
   nlohmann::ordered_json j;
   j["case"] = c.name;
-  j["particles"] = {{"water", data.header.counts.water}, {"soil", data.header.counts.soil},
-                    {"wall", data.header.counts.wall}, {"left_out", data.header.counts.wall_left_out}};
+  j["particles"] = {{"water", data.header.counts.water},
+                    {"soil", data.header.counts.soil},
+                    {"wall", data.header.counts.wall},
+                    {"left_out", data.header.counts.wall_left_out}};
   j["left_out"] = simulation->left_out();
   j["memory_bytes"] = simulation->bytes();
   j["time_step_s"] = dt;

@@ -10,21 +10,21 @@
 namespace lgiw {
 
 struct RunOptions {
-  std::string output;             // final name of the run file
+  std::string output;  // final name of the run file
   bool overwrite = false, resume = false, provenance = true;
-  std::string provenance_json;    // of this run
+  std::string provenance_json;                               // of this run
   std::function<void(double, const std::string&)> progress;  // fraction done, note
   std::function<void(const std::string&)> log;               // one line
 };
 
-/// What a run would cost: counts, memory (of a simulation on the CPU, which is made but takes no step), time step, steps,
-/// seconds at `particle_steps_per_s`.
+/// What a run would cost: counts, memory (of a simulation on the CPU, which is made but takes no step), time step,
+/// steps, seconds at `particle_steps_per_s`.
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s);
 
-/// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is complete;
-/// checkpoints lie beside it as OUTPUT.checkpoint. Returns the summary as JSON. SIGINT and SIGTERM end the step, write a
-/// checkpoint and throw Interrupted. A particle in a state that is not finite or out of range throws WorkError with its
-/// place and the last good checkpoint.
+/// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is
+/// complete; checkpoints lie beside it as OUTPUT.checkpoint. Returns the summary as JSON. SIGINT and SIGTERM end the
+/// step, write a checkpoint and throw Interrupted. A particle in a state that is not finite or out of range throws
+/// WorkError with its place and the last good checkpoint.
 std::string run_case(const Case& c, const ParticleData& data, const RunOptions& options);
 
 struct Interrupted {

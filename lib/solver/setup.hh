@@ -1,4 +1,5 @@
-// What a simulation is made from, in double precision and without a backend: parameters of the model and initial particles.
+// What a simulation is made from, in double precision and without a backend: parameters of the model and initial
+// particles.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@ namespace lgiw {
 struct ModelParameters {
   int dimension = 3;
   double dp = 0, h = 0;
-  std::array<double, 3> gravity{0, 0, -9.81};   // 2-D: x and z are used
+  std::array<double, 3> gravity{0, 0, -9.81};  // 2-D: x and z are used
   bool cubic_kernel = false;
   bool verlet = false;
   double cfl = 0.4;
@@ -19,23 +20,23 @@ struct ModelParameters {
   double water_density = 1000, sound_speed = 0, water_alpha = 0, density_diffusion = 0;
   // Soil.
   double soil_density = 0, young_modulus = 0, poisson_ratio = 0.3, friction = 0, cohesion = 0, dilatancy = 0;
-  int cone = 0;                                 // Cone
+  int cone = 0;  // Cone
   double soil_alpha = 0, stress_diffusion = 0, artificial_stress = 0;
   bool return_mapping = true, wall_viscosity = true;
   double k0 = 1;
-  double pore_gradient = 0;                     // rho0 g of the pore water, Pa/m; 0: none
+  double pore_gradient = 0;  // rho0 g of the pore water, Pa/m; 0: none
   bool coulomb_bed = false, free_slip_bed = false, free_slip_sides = true;
-  double bed_friction = 0;                      // tan(delta) of a Coulomb bed
+  double bed_friction = 0;  // tan(delta) of a Coulomb bed
   // Interface.
   double velocity_factor = 1;
   bool repulsion = true, image_gravity = true;
   // Domain.
   double still_water_level = 0;
   std::array<double, 3> low{}, high{};
-  std::array<bool, 4> absorbing{};              // west, east, south, north
-  std::array<double, 4> side_at{};              // their coordinates
+  std::array<bool, 4> absorbing{};                 // west, east, south, north
+  std::array<double, 4> side_at{};                 // their coordinates
   double absorbing_width = 0, absorbing_rate = 0;  // m, 1/s at the side itself
-  double settle_rate = 0;                       // 1/s: damping of the water while settling
+  double settle_rate = 0;                          // 1/s: damping of the water while settling
 };
 
 /// Particles in the order of the particles file; all [n] or [n][...] row by row.
@@ -45,7 +46,7 @@ struct InitialParticles {
   std::vector<float> soil_stress;               // [n,6] xx yy zz xy yz xz
   std::vector<float> wall_normal, wall_volume;  // [n,3], [n]
   std::vector<uint8_t> wall_kind;
-  std::vector<float> water_v, soil_v;           // [n,3], or empty: at rest
+  std::vector<float> water_v, soil_v;  // [n,3], or empty: at rest
   std::size_t n_water() const { return water_x.size() / 3; }
   std::size_t n_soil() const { return soil_x.size() / 3; }
   std::size_t n_wall() const { return wall_x.size() / 3; }

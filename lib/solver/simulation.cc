@@ -1,10 +1,31 @@
 #include "solver/simulation.hh"
 
+#include <string>
+
+#include "base/error.hh"
 #include "solver/cpu_simulation.hh"
 
 namespace lgiw {
+namespace {
 
-std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles, NumberType type) {
+/// The pair loops are compiled for one instruction set; say so before the first of them meets an older processor.
+void check_processor() {
+#if defined(__x86_64__)
+  const std::string arch = LGIW_CPU_ARCH;
+  bool able = true;
+  if (arch == "x86-64-v3") able = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (arch == "x86-64-v4") able = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+  if (!able)
+    throw BackendError("--backend cpu is not possible (this processor lacks the instructions of " + arch +
+                       ") configure the build with -DLGIW_CPU_ARCH=x86-64");
+#endif
+}
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles,
+                                                NumberType type) {
+  check_processor();
   const bool plane = p.dimension == 2;
   switch (type) {
     case NumberType::single_:

@@ -15,22 +15,23 @@ enum class NumberType { single_, mixed, double_ };
 
 /// Where the time stepping stands. Kept on the device; copied to the host when asked for.
 struct StepState {
-  double time = 0, target = 0;      // s; steps are taken while time < target
-  double dt = 0, dt_previous = 0;   // s
+  double time = 0, target = 0;     // s; steps are taken while time < target
+  double dt = 0, dt_previous = 0;  // s
   int64_t step = 0;
-  int32_t euler_countdown = 0;      // Verlet: steps left until the next Euler step
-  int32_t settling = 0;             // 1: the soil is held and the water damped
-  int32_t limit = 0;                // what limited dt: 0 acoustic, 1 force, 2 viscous
+  int32_t euler_countdown = 0;  // Verlet: steps left until the next Euler step
+  int32_t settling = 0;         // 1: the soil is held and the water damped
+  int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous
   int32_t lost_water = 0, lost_soil = 0;
-  uint32_t failed_water = UINT32_MAX, failed_soil = UINT32_MAX;  // smallest id in a state that is not finite or out of range
+  uint32_t failed_water = UINT32_MAX,
+           failed_soil = UINT32_MAX;  // smallest id in a state that is not finite or out of range
 };
 
 /// The moving particles in the order of the particles file (by id).
 struct ParticleState {
-  std::vector<double> water_x, soil_x;             // [n,3]; y = 0 in 2-D
-  std::vector<float> water_v, soil_v;              // [n,3]
-  std::vector<float> water_pressure, water_excess; // [n]
-  std::vector<float> soil_stress, soil_adps;       // [n,6], [n]
+  std::vector<double> water_x, soil_x;              // [n,3]; y = 0 in 2-D
+  std::vector<float> water_v, soil_v;               // [n,3]
+  std::vector<float> water_pressure, water_excess;  // [n]
+  std::vector<float> soil_stress, soil_adps;        // [n,6], [n]
   std::vector<unsigned char> water_lost, soil_lost;
 };
 
@@ -59,17 +60,19 @@ class Simulation {
   /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3].
   virtual void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const = 0;
   virtual std::vector<RawArray> save() const = 0;
-  virtual void restore(const std::vector<RawArray>& arrays) = 0;   // throws InputError when they do not fit
+  virtual void restore(const std::vector<RawArray>& arrays) = 0;  // throws InputError when they do not fit
   virtual std::vector<PhaseTime> timings() const = 0;
-  virtual int64_t bytes() const = 0;                               // held for particles and neighbours
-  virtual std::string description() const = 0;                     // backend, precision, kernel
+  virtual int64_t bytes() const = 0;            // held for particles and neighbours
+  virtual std::string description() const = 0;  // backend, precision, kernel
   /// What this scene does not need and therefore neither holds nor runs, with the bytes saved.
   virtual std::vector<std::string> left_out() const = 0;
 };
 
-std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles, NumberType type);
+std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles,
+                                                NumberType type);
 /// Throws BackendError when there is no CUDA device (or no driver, or no CUDA in this build).
-std::unique_ptr<Simulation> make_cuda_simulation(const ModelParameters& p, const InitialParticles& particles, NumberType type);
+std::unique_ptr<Simulation> make_cuda_simulation(const ModelParameters& p, const InitialParticles& particles,
+                                                 NumberType type);
 /// Whether a CUDA device answers; `why` tells what is missing otherwise.
 bool cuda_available(std::string* why = nullptr);
 

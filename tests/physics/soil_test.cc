@@ -29,11 +29,12 @@ TEST(DruckerPrager, ConstantsOfTheTable) {
   EXPECT_NEAR(cone.alpha_phi, 2 * std::sin(phi) / (std::sqrt(3.0) * (3 - std::sin(phi))), 1e-15);
 }
 
-/// Shears a plane-strain element at constant vertical stress ratio until it flows; returns the mobilised friction angle.
+/// Shears a plane-strain element at constant vertical stress ratio until it flows; returns the mobilised friction
+/// angle.
 double mobilised_friction(Cone cone, double phi) {
   const SoilMaterial<double> m(1e7, 0.3, phi, 0, 0, cone);
   S2 s{{-1e5, -1e5, 0, -1e5}};
-  const double l[4] = {0, 0.01, 0.01, 0};      // pure shear at constant volume
+  const double l[4] = {0, 0.01, 0.01, 0};  // pure shear at constant volume
   for (int k = 0; k < 20000; ++k) {
     const S2 d = elastic_increment(m, s, l, 0.01);
     for (int c = 0; c < 4; ++c) s.c[c] += d.c[c];
@@ -44,7 +45,7 @@ double mobilised_friction(Cone cone, double phi) {
 }
 TEST(DruckerPrager, ExactPlaneStrainConstantsMobiliseTheFrictionAngle) {
   EXPECT_NEAR(mobilised_friction(Cone::plane_strain, 25 * degree), 25, 0.05);
-  EXPECT_NEAR(mobilised_friction(Cone::plane_strain_associated, 25 * degree), 24.2, 0.1);   // physics.md section 4
+  EXPECT_NEAR(mobilised_friction(Cone::plane_strain_associated, 25 * degree), 24.2, 0.1);  // physics.md section 4
   EXPECT_NEAR(mobilised_friction(Cone::plane_strain_associated, 35 * degree), 33.0, 0.1);
   EXPECT_NEAR(mobilised_friction(Cone::compression, 25 * degree), 34.6, 0.1);
 }
@@ -103,14 +104,14 @@ TEST(Elasticity, ConfinedCompressionAndPlaneStrain) {
   const double confined = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), across = confined * nu / (1 - nu);
   EXPECT_NEAR(d.c[1], -0.001 * confined, 1e-9);
   EXPECT_NEAR(d.c[0], -0.001 * across, 1e-9);
-  EXPECT_NEAR(d.c[3], -0.001 * across, 1e-9);    // out of plane
+  EXPECT_NEAR(d.c[3], -0.001 * across, 1e-9);  // out of plane
   EXPECT_NEAR(SoilMaterial<double>::wave_speed(e, nu, 2000), std::sqrt(confined / 2000), 1e-12);
 }
 TEST(Elasticity, RigidRotationTurnsTheStress) {
   const SoilMaterial<double> m(1e6, 0.3, 0.5, 0, 0, Cone::plane_strain);
   S3 s{{-1000, -3000, -500, 0, 0, 0}};
   const int steps = 20000;
-  const double w = pi / 2 / steps;               // a quarter turn about z
+  const double w = pi / 2 / steps;  // a quarter turn about z
   const double l[9] = {0, -w, 0, w, 0, 0, 0, 0, 0};
   for (int k = 0; k < steps; ++k) {
     const S3 d = elastic_increment(m, s, l, 1.0);
@@ -154,8 +155,8 @@ TEST(ArtificialStress, OpposesTensilePrincipalStressesOnly) {
   EXPECT_NEAR(plane.c[1], 0, 1e-12);
   // The same principal stresses turned by 30 degrees in 3-D.
   const double c = std::cos(30 * degree), s = std::sin(30 * degree);
-  const S3 turned = artificial_stress(
-      S3{{300 * c * c - 100 * s * s, 300 * s * s - 100 * c * c, -20, 400 * c * s, 0, 0}}, scale);
+  const S3 turned =
+      artificial_stress(S3{{300 * c * c - 100 * s * s, 300 * s * s - 100 * c * c, -20, 400 * c * s, 0, 0}}, scale);
   EXPECT_NEAR(turned.c[0], -150 * c * c, 1e-9);
   EXPECT_NEAR(turned.c[1], -150 * s * s, 1e-9);
   EXPECT_NEAR(turned.c[3], -150 * c * s, 1e-9);

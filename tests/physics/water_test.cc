@@ -15,7 +15,7 @@ TEST(EquationOfState, MatchesTheFormulaAndItsInverse) {
 }
 TEST(EquationOfState, SinglePrecisionResolvesAMillimetreOfWater) {
   const EquationOfState<float> eos(1000, 400);
-  const float one_millimetre = 9.81f;                 // Pa
+  const float one_millimetre = 9.81f;  // Pa
   EXPECT_NEAR(eos.pressure(eos.excess(one_millimetre)), one_millimetre, 1e-4f);
 }
 TEST(WaterContinuity, DiffusionVanishesInHydrostaticWater) {

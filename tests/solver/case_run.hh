@@ -5,9 +5,9 @@
 #include <string>
 
 #include "measure/column_surface.hh"
+#include "physics/kernel.hh"
 #include "seeding/seeding.hh"
 #include "solver/diagnostics.hh"
-#include "physics/kernel.hh"
 #include "solver/make_setup.hh"
 
 namespace lgiw::test {

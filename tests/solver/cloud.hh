@@ -17,7 +17,8 @@ struct Cloud {
   InitialParticles in;
 };
 
-/// A disordered block: soil in the lower half, water above, walls around, everything moving. Lengths of order dp = 0.1 m.
+/// A disordered block: soil in the lower half, water above, walls around, everything moving. Lengths of order dp = 0.1
+/// m.
 inline Cloud cloud(const CloudOptions& o) {
   Cloud s;
   ModelParameters& p = s.p;
@@ -49,8 +50,10 @@ inline Cloud cloud(const CloudOptions& o) {
           s.in.wall_x.insert(s.in.wall_x.end(), {x, y, z});
           const bool bed = k < 0;
           const float side = i < 0 ? 1.f : -1.f;
-          if (bed) s.in.wall_normal.insert(s.in.wall_normal.end(), {0.f, 0.f, 1.f});
-          else s.in.wall_normal.insert(s.in.wall_normal.end(), {side, 0.f, 0.f});
+          if (bed)
+            s.in.wall_normal.insert(s.in.wall_normal.end(), {0.f, 0.f, 1.f});
+          else
+            s.in.wall_normal.insert(s.in.wall_normal.end(), {side, 0.f, 0.f});
           s.in.wall_volume.push_back(float(std::pow(0.1, o.dimension) * (1 + 0.2 * u(random))));
           s.in.wall_kind.push_back(bed ? 0 : 1);
         } else if (2 * k < n) {

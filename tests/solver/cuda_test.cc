@@ -39,9 +39,12 @@ void compare(const CloudOptions& o, NumberType type, double tolerance) {
   EXPECT_EQ(sa.step, sb.step);
   EXPECT_NEAR(sa.time, sb.time, 1e-6 * sa.time);
   cpu->download(a), cuda->download(b);
-  for (std::size_t i = 0; i < a.water_x.size(); ++i) ASSERT_NEAR(a.water_x[i], b.water_x[i], tolerance * c.p.dp) << "water " << i / 3;
-  for (std::size_t i = 0; i < a.soil_x.size(); ++i) ASSERT_NEAR(a.soil_x[i], b.soil_x[i], tolerance * c.p.dp) << "soil " << i / 3;
-  for (std::size_t i = 0; i < a.soil_stress.size(); ++i) ASSERT_NEAR(a.soil_stress[i], b.soil_stress[i], 20 + 1e5 * tolerance);
+  for (std::size_t i = 0; i < a.water_x.size(); ++i)
+    ASSERT_NEAR(a.water_x[i], b.water_x[i], tolerance * c.p.dp) << "water " << i / 3;
+  for (std::size_t i = 0; i < a.soil_x.size(); ++i)
+    ASSERT_NEAR(a.soil_x[i], b.soil_x[i], tolerance * c.p.dp) << "soil " << i / 3;
+  for (std::size_t i = 0; i < a.soil_stress.size(); ++i)
+    ASSERT_NEAR(a.soil_stress[i], b.soil_stress[i], 20 + 1e5 * tolerance);
 }
 TEST(Cuda, EqualsCpuInDouble2D) { compare({2}, NumberType::double_, 1e-9); }
 TEST(Cuda, EqualsCpuInDouble3D) { compare({3}, NumberType::double_, 1e-9); }

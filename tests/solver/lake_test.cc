@@ -26,11 +26,12 @@ TEST(LakeAtRest, RealCanyonCalmsDownAndKeepsItsLevel) {
     speeds.push_back(run.diagnostic(s, "max_water_speed"));
     if (t == 10) energy_at_10 = run.diagnostic(s, "kinetic_energy");
   }
-  std::printf("measured: lake at rest, dp 30 m: fastest particle %.2f m/s at 10 s, %.2f m/s at 60 s (0.01 sqrt(g h) = %.2f)\n", speeds[1],
-              speeds[6], 0.01 * wave);
+  std::printf(
+      "measured: lake at rest, dp 30 m: fastest particle %.2f m/s at 10 s, %.2f m/s at 60 s (0.01 sqrt(g h) = %.2f)\n",
+      speeds[1], speeds[6], 0.01 * wave);
   EXPECT_LT(run.diagnostic(s, "kinetic_energy"), 0.25 * energy_at_10);
   EXPECT_LT(speeds[6], 0.4 * speeds[1]);
-  EXPECT_LT(speeds[6], 0.015 * wave);          // 5 particles deep; the bar of 0.01 is for the case's own spacing
+  EXPECT_LT(speeds[6], 0.015 * wave);  // 5 particles deep; the bar of 0.01 is for the case's own spacing
   EXPECT_EQ(run.diagnostic(s, "below_bed"), 0);
   EXPECT_EQ(run.simulation->state().lost_water, 0);
 

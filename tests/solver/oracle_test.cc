@@ -1,4 +1,5 @@
-// The solver against a plain O(N^2) evaluation of physics.md, in double precision, on disordered particles of all phases.
+// The solver against a plain O(N^2) evaluation of physics.md, in double precision, on disordered particles of all
+// phases.
 #include <gtest/gtest.h>
 
 #include "cloud.hh"
@@ -54,9 +55,15 @@ class Oracle {
   V g;
   double volume, mw, ms;
 
-  double w(double r) const { return p.cubic_kernel ? CubicSpline<double, D>(p.h).value(r) : Wendland<double, D>(p.h).value(r); }
-  double f(double r) const { return p.cubic_kernel ? CubicSpline<double, D>(p.h).gradient(r) : Wendland<double, D>(p.h).gradient(r); }
-  double pressure(double e) const { return p.sound_speed * p.sound_speed * p.water_density / 7 * (std::pow(1 + e / p.water_density, 7) - 1); }
+  double w(double r) const {
+    return p.cubic_kernel ? CubicSpline<double, D>(p.h).value(r) : Wendland<double, D>(p.h).value(r);
+  }
+  double f(double r) const {
+    return p.cubic_kernel ? CubicSpline<double, D>(p.h).gradient(r) : Wendland<double, D>(p.h).gradient(r);
+  }
+  double pressure(double e) const {
+    return p.sound_speed * p.sound_speed * p.water_density / 7 * (std::pow(1 + e / p.water_density, 7) - 1);
+  }
   double density(double pressure) const {
     return p.water_density * std::pow(1 + 7 * pressure / (p.sound_speed * p.sound_speed * p.water_density), 1.0 / 7);
   }
@@ -76,7 +83,7 @@ class Oracle {
     }
     return bottom > 0 ? top / bottom : 0;
   }
-  S at_rest(double z) const {     // rho_s kappa
+  S at_rest(double z) const {  // rho_s kappa
     const bool wet = p.pore_gradient > 0 && z < p.still_water_level;
     const double across = wet ? p.k0 + (1 - p.k0) * p.water_density / p.soil_density : p.k0, g2 = dot(g, g);
     S s{};
@@ -126,20 +133,23 @@ class Oracle {
     double repulsion = 0;
     if (d < p.dp) {
       const double eta = 2 * d / p.h;
-      const double shape = eta <= 2.0 / 3 ? 2.0 / 3 : (eta < 1 ? 2 * eta - 1.5 * eta * eta : (eta < 2 ? 0.5 * (2 - eta) * (2 - eta) : 0));
+      const double shape = eta <= 2.0 / 3
+                               ? 2.0 / 3
+                               : (eta < 1 ? 2 * eta - 1.5 * eta * eta : (eta < 2 ? 0.5 * (2 - eta) * (2 - eta) : 0));
       repulsion = 0.01 * p.sound_speed * p.sound_speed * (1 - d / p.dp) * shape / (d * d);
     }
     return -mw * phi * f(d) + repulsion;
   }
 
-  V water_force(std::size_t i) const {      // N, without gravity
+  V water_force(std::size_t i) const {  // N, without gravity
     V a{};
     const double rho_i = p.water_density + ew[i], pi_i = pressure(ew[i]), ac = p.water_alpha * p.sound_speed;
     for (std::size_t j = 0; j < xw.size(); ++j) {
       if (j == i) continue;
       const V r = xw[i] - xw[j];
       const double rho_j = p.water_density + ew[j];
-      const double sum = pi_i / (rho_i * rho_i) + pressure(ew[j]) / (rho_j * rho_j) + viscosity(r, vw[i] - vw[j], ac, 0.5 * (rho_i + rho_j));
+      const double sum = pi_i / (rho_i * rho_i) + pressure(ew[j]) / (rho_j * rho_j) +
+                         viscosity(r, vw[i] - vw[j], ac, 0.5 * (rho_i + rho_j));
       add_scaled(a, -mw * sum * f(std::sqrt(dot(r, r))), r);
     }
     for (std::size_t b = 0; b < xb.size(); ++b) {
@@ -166,7 +176,8 @@ class Oracle {
       for (int c = 0; c < S::size; ++c) sum.c[c] = (sigma[i].c[c] + sigma[j].c[c]) / rho2;
       if (p.artificial_stress > 0) {
         const double fn = std::pow(w(d) / w(p.dp), 2.55);
-        const S ri = artificial_stress(sigma[i], p.artificial_stress / rho2), rj = artificial_stress(sigma[j], p.artificial_stress / rho2);
+        const S ri = artificial_stress(sigma[i], p.artificial_stress / rho2),
+                rj = artificial_stress(sigma[j], p.artificial_stress / rho2);
         for (int c = 0; c < S::size; ++c) sum.c[c] += fn * (ri.c[c] + rj.c[c]);
       }
       add_scaled(a, ms * f(d), apply(sum, r));
@@ -223,12 +234,13 @@ class Oracle {
       const V r = xs[i] - xs[j];
       add(r, vs[j] - vs[i], volume);
       for (int c = 0; c < S::size; ++c)
-        smoothing.c[c] += 2 * p.stress_diffusion * p.h * soil_c() * volume * (sigma[j].c[c] - sigma[i].c[c] - dot(g, r) * rest.c[c]) *
-                          -f(std::sqrt(dot(r, r)));
+        smoothing.c[c] += 2 * p.stress_diffusion * p.h * soil_c() * volume *
+                          (sigma[j].c[c] - sigma[i].c[c] - dot(g, r) * rest.c[c]) * -f(std::sqrt(dot(r, r)));
     }
     for (std::size_t b = 0; b < xb.size(); ++b)
       if (dot(xs[i] - xb[b], xs[i] - xb[b]) < 4 * p.h * p.h) add(xs[i] - xb[b], wall_velocity(b) - vs[i], volume_b[b]);
-    const SoilMaterial<double> m(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy, Cone::plane_strain);
+    const SoilMaterial<double> m(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy,
+                                 Cone::plane_strain);
     S d = elastic_increment(m, sigma[i], l, dt), s = sigma[i];
     for (int c = 0; c < S::size; ++c) d.c[c] += dt * smoothing.c[c];
     const double pore = std::max(0.0, p.pore_gradient * (p.still_water_level - xs[i][D - 1]));
@@ -243,7 +255,9 @@ class Oracle {
 };
 
 template <class V>
-double size(const V& v) { return std::sqrt(dot(v, v)); }
+double size(const V& v) {
+  return std::sqrt(dot(v, v));
+}
 
 template <int D>
 void compare_forces(const Options& o) {
@@ -257,11 +271,13 @@ void compare_forces(const Options& o) {
   for (std::size_t i = 0; i < oracle.xs.size(); ++i) scale = std::max(scale, size(oracle.soil_force(i)));
   for (std::size_t i = 0; i < oracle.xw.size(); ++i) {
     const auto expected = oracle.water_force(i);
-    for (int k = 0; k < D; ++k) EXPECT_NEAR(water[3 * i + Oracle<D>::axis(k)], expected[k], 1e-9 * scale) << "water " << i;
+    for (int k = 0; k < D; ++k)
+      EXPECT_NEAR(water[3 * i + Oracle<D>::axis(k)], expected[k], 1e-9 * scale) << "water " << i;
   }
   for (std::size_t i = 0; i < oracle.xs.size(); ++i) {
     const auto expected = oracle.soil_force(i);
-    for (int k = 0; k < D; ++k) EXPECT_NEAR(soil[3 * i + Oracle<D>::axis(k)], expected[k], 1e-9 * scale) << "soil " << i;
+    for (int k = 0; k < D; ++k)
+      EXPECT_NEAR(soil[3 * i + Oracle<D>::axis(k)], expected[k], 1e-9 * scale) << "soil " << i;
   }
 }
 TEST(Oracle, Forces2D) { compare_forces<2>({}); }
@@ -269,7 +285,8 @@ TEST(Oracle, Forces3D) { compare_forces<3>({3}); }
 TEST(Oracle, ForcesOfThePaper2D) { compare_forces<2>({2, true, true, true}); }
 TEST(Oracle, ForcesOfThePaper3D) { compare_forces<3>({3, true, true, true}); }
 
-/// One step: positions and velocities move by the oracle's forces, then densities and stresses by the oracle's rates there.
+/// One step: positions and velocities move by the oracle's forces, then densities and stresses by the oracle's rates
+/// there.
 template <int D>
 void compare_step(Options o) {
   Cloud c = cloud(o);
@@ -285,8 +302,8 @@ void compare_step(Options o) {
 
   // v^{1/2} = v^0 + dt/2 a, r^1 = r^0 + dt v^{1/2}
   Oracle<D> oracle(c);
-  auto move = [&](std::vector<typename Oracle<D>::V>& x, std::vector<typename Oracle<D>::V>& v, const std::vector<double>& force,
-                  double m, const std::vector<double>& moved) {
+  auto move = [&](std::vector<typename Oracle<D>::V>& x, std::vector<typename Oracle<D>::V>& v,
+                  const std::vector<double>& force, double m, const std::vector<double>& moved) {
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int k = 0; k < D; ++k) {
         v[i][k] += 0.5 * dt * (force[3 * i + Oracle<D>::axis(k)] / m + oracle.g[k]);
@@ -307,7 +324,7 @@ void compare_step(Options o) {
     EXPECT_NEAR(s.soil_adps[i], adps, 1e-9 + 1e-5 * adps);
     plastic += adps > 0;
   }
-  EXPECT_GT(plastic, 0);                      // or the test would not see the return mapping
+  EXPECT_GT(plastic, 0);  // or the test would not see the return mapping
   EXPECT_LT(plastic, int(oracle.xs.size()));
 }
 TEST(Oracle, Step2D) { compare_step<2>({}); }
@@ -323,12 +340,13 @@ void compare_momentum(bool paper) {
   double across = 0;
   for (int k : {0, 1, 2}) {
     double sum = 0, sizes = 0, water_sum = 0;
-    for (std::size_t i = k; i < water.size(); i += 3) sum += water[i], sizes += std::fabs(water[i]), water_sum += water[i];
+    for (std::size_t i = k; i < water.size(); i += 3)
+      sum += water[i], sizes += std::fabs(water[i]), water_sum += water[i];
     for (std::size_t i = k; i < soil.size(); i += 3) sum += soil[i], sizes += std::fabs(soil[i]);
     EXPECT_NEAR(sum, 0, 1e-12 * sizes + 1e-30) << "axis " << k;
     across = std::max(across, std::fabs(water_sum));
   }
-  EXPECT_GT(across, 1);                       // N: the phases do push each other
+  EXPECT_GT(across, 1);  // N: the phases do push each other
 }
 TEST(Momentum, IsConservedIn2D) { compare_momentum<2>(false); }
 TEST(Momentum, IsConservedIn3D) { compare_momentum<3>(false); }

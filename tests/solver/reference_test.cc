@@ -36,7 +36,7 @@ output: {end_time: 2}
     return s.water_pressure[i] - 1000 * g * (0.2 - s.water_x[3 * i + 2]);
   });
   std::printf("measured: tank pressure RMS %.3f %% of rho g H\n", 100 * rms);
-  EXPECT_LT(rms, 0.0045);     // 0.41 % in the reference, which is a state and not an average: allow a tenth
+  EXPECT_LT(rms, 0.0045);  // 0.41 % in the reference, which is a state and not an average: allow a tenth
   EXPECT_LT(run.diagnostic(s, "max_water_speed"), 0.01 * std::sqrt(g * 0.2));
 }
 
@@ -57,7 +57,7 @@ output: {end_time: 0.5}
   });
   std::printf("measured: soil box sigma_v RMS %.3f %% of rho g H\n", 100 * rms);
   EXPECT_LT(rms, 0.0019);
-  EXPECT_LT(*std::max_element(s.soil_adps.begin(), s.soil_adps.end()), 0.05);   // it stands still
+  EXPECT_LT(*std::max_element(s.soil_adps.begin(), s.soil_adps.end()), 0.05);  // it stands still
 }
 
 TEST(Reference, SoilUnderWater) {
@@ -69,7 +69,8 @@ particle_spacing: 0.005
 terrain: {profile: [[0, 0], [0.2, 0]]}
 water: {level: 0.2, sound_speed: 28, bodies: [[[0, 0.1], [0.2, 0.1], [0.2, 0.2], [0, 0.2]]]}
 slide: {bodies: [[[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]]]}
-soil: {density: 2000, friction_angle: 25, young_modulus: 1e6, poisson_ratio: 0.3, pore_pressure: )") + pore + R"(}
+soil: {density: 2000, friction_angle: 25, young_modulus: 1e6, poisson_ratio: 0.3, pore_pressure: )") +
+                pore + R"(}
 output: {end_time: 1}
 )");
     const ParticleState s = run.at(1);
@@ -80,8 +81,8 @@ output: {end_time: 1}
     const double pressure = relative_rms(s.water_pressure.size(), scale, [&](std::size_t i) {
       return s.water_pressure[i] - 1000 * g * (0.2 - s.water_x[3 * i + 2]);
     });
-    std::printf("measured: soil under water, pore pressure %s: sigma_v RMS %.3f %%, p RMS %.3f %%\n", pore, 100 * vertical,
-                100 * pressure);
+    std::printf("measured: soil under water, pore pressure %s: sigma_v RMS %.3f %%, p RMS %.3f %%\n", pore,
+                100 * vertical, 100 * pressure);
     EXPECT_LT(vertical, 0.0027);
     EXPECT_LT(pressure, 0.0017);
   }
@@ -99,7 +100,7 @@ soil: {density: 2000, friction_angle: 25, young_modulus: 1e6}
 output: {end_time: 1}
 )");
   ASSERT_EQ(run.data.soil.size(), 100u);
-  run.simulation->settle(true);                       // holds the block while the water finds its rest
+  run.simulation->settle(true);  // holds the block while the water finds its rest
   double force = 0, side = 0;
   const int samples = 20;
   for (int k = 0; k < samples; ++k) {
@@ -109,7 +110,7 @@ output: {end_time: 1}
     for (std::size_t i = 0; i < soil.size(); i += 3) side += soil[i] / samples, force += soil[i + 2] / samples;
   }
   std::printf("measured: buoyancy %.2f N/m against %.2f\n", force, 1000 * g * 0.01);
-  EXPECT_NEAR(force, 1000 * g * 0.01, 0.1);           // 98.1 N/m; 98.2 in the reference
+  EXPECT_NEAR(force, 1000 * g * 0.01, 0.1);  // 98.1 N/m; 98.2 in the reference
   EXPECT_NEAR(side, 0, 0.1);
 }
 
@@ -130,17 +131,18 @@ std::vector<std::vector<double>> read_csv(const std::string& path) {
 }
 
 struct Column {
-  double surface_rms = 0, front = 0;      // m
+  double surface_rms = 0, front = 0;  // m
 };
 Column collapse(double dp, double e, double alpha) {
   CaseRun run(R"(
 name: column
 dimension: 2
-particle_spacing: )" + number(dp) + R"(
+particle_spacing: )" +
+              number(dp) + R"(
 terrain: {profile: [[0, 0], [1, 0]], sides: {east: open}}
 slide: {bodies: [[[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]]]}
-soil: {density: 2650, friction_angle: 19.8, young_modulus: )" + number(e) + R"(, poisson_ratio: 0.3, viscosity_alpha: )" +
-              number(alpha) + R"(}
+soil: {density: 2650, friction_angle: 19.8, young_modulus: )" +
+              number(e) + R"(, poisson_ratio: 0.3, viscosity_alpha: )" + number(alpha) + R"(}
 output: {end_time: 0.8}
 )");
   const ParticleState s = run.at(0.8);
@@ -158,8 +160,8 @@ output: {end_time: 0.8}
     sum += std::pow((std::isfinite(z) ? z : 0) - point[1], 2);
   }
   result.surface_rms = std::sqrt(sum / double(measured.size()));
-  std::printf("measured: column dp %.1f mm, E %.2f MPa, alpha %.2f: surface RMS %.2f mm, front (99 %%) %.3f m\n", 1000 * dp, e / 1e6,
-              run.p.soil_alpha, 1000 * result.surface_rms, result.front);
+  std::printf("measured: column dp %.1f mm, E %.2f MPa, alpha %.2f: surface RMS %.2f mm, front (99 %%) %.3f m\n",
+              1000 * dp, e / 1e6, run.p.soil_alpha, 1000 * result.surface_rms, result.front);
   return result;
 }
 TEST(Reference, ColumnCollapseAgainstTheMeasuredSurface) {
@@ -178,7 +180,8 @@ Wave slide(double dp, const char* pore) {
   CaseRun run(R"(
 name: slide
 dimension: 2
-particle_spacing: )" + number(dp) + R"(
+particle_spacing: )" +
+              number(dp) + R"(
 terrain: {profile: [[-0.25, 0.25], [0.15, -0.15], [2.2, -0.15]]}
 water: {level: 0, seed: [1, 0], sound_speed: 24.3, viscosity_alpha: 0.05}
 slide: {bodies: [[[0, 0], [0, 0.1167], [-0.1167, 0.1167]]]}
@@ -205,9 +208,11 @@ output: {end_time: 1.2}
   EXPECT_EQ(run.simulation->state().lost_water + run.simulation->state().lost_soil, 0);
   double x = 0;
   for (std::size_t i = 0; i < s.soil_x.size(); i += 3) x += s.soil_x[i] / double(s.soil_x.size() / 3);
-  std::printf("measured: slide dp %.4f, pore pressure %s: crests %.1f mm at %.2f s, %.1f mm at %.2f s; soil centre x %.3f m; energy "
-              "rise %.2g of %.2f J released\n", dp, pore, 1000 * w.crest[0], w.time[0], 1000 * w.crest[1], w.time[1], x,
-              w.energy_rise, w.released);
+  std::printf(
+      "measured: slide dp %.4f, pore pressure %s: crests %.1f mm at %.2f s, %.1f mm at %.2f s; soil centre x %.3f m; "
+      "energy "
+      "rise %.2g of %.2f J released\n",
+      dp, pore, 1000 * w.crest[0], w.time[0], 1000 * w.crest[1], w.time[1], x, w.energy_rise, w.released);
   return w;
 }
 void check_slide(double dp, double first, double second) {
@@ -227,7 +232,8 @@ TEST(Reference, SlideWithoutPorePressure) {
   EXPECT_NEAR(w.crest[1], 0.020, 0.002);
 }
 
-/// A layer of soil 0.1 m thick on a plane, long enough for its middle to feel no ends; returns how far the middle moved.
+/// A layer of soil 0.1 m thick on a plane, long enough for its middle to feel no ends; returns how far the middle
+/// moved.
 double slope(double degrees) {
   const double t = std::tan(degrees * pi / 180), l = 1.2, top = l * t;
   std::ostringstream yaml;
@@ -246,7 +252,7 @@ double slope(double degrees) {
   return moved / n;
 }
 TEST(Reference, SoilStaysOnAFlatSlopeAndLeavesASteepOne) {
-  EXPECT_LT(slope(15), 0.01);        // within one particle
+  EXPECT_LT(slope(15), 0.01);  // within one particle
   EXPECT_GT(slope(35), 0.2);
 }
 

@@ -50,8 +50,10 @@ void write_diagnostics(const std::string& run, const std::string& path, bool ove
     }
     text += "\n";
   }
-  if (path == "-") std::cout << text;
-  else write_text_file(path, text, overwrite);
+  if (path == "-")
+    std::cout << text;
+  else
+    write_text_file(path, text, overwrite);
 }
 
 void refuse_existing(const std::string& path, bool overwrite) {
@@ -60,11 +62,13 @@ void refuse_existing(const std::string& path, bool overwrite) {
 }
 
 int run(const Options& o, int argc, char** argv) {
-  LGIW_VALIDATE(o.dry_run || !o.output.empty(), "no output file is named", "the run has to go somewhere", "use -o RUN.h5");
+  LGIW_VALIDATE(o.dry_run || !o.output.empty(), "no output file is named", "the run has to go somewhere",
+                "use -o RUN.h5");
   for (const std::string& path : {o.output, o.summary, o.diagnostics, o.xmf}) refuse_existing(path, o.common.overwrite);
   if (!o.output.empty()) {
-    LGIW_VALIDATE(o.output != "-", "a run cannot go to standard output", "HDF5 files need a seekable file", "use -o RUN.h5");
-    AtomicFile probe(o.output, true);   // refuses a folder that cannot be written, before any work
+    LGIW_VALIDATE(o.output != "-", "a run cannot go to standard output", "HDF5 files need a seekable file",
+                  "use -o RUN.h5");
+    AtomicFile probe(o.output, true);  // refuses a folder that cannot be written, before any work
   }
   if (o.threads > 0) omp_set_num_threads(o.threads);
   const ParticleData data = read_particles(o.particles);
@@ -72,9 +76,8 @@ int run(const Options& o, int argc, char** argv) {
   if (!o.backend.empty()) overrides.push_back("numerics.backend=" + o.backend);
   const Case c = o.case_file.empty() ? parse_case(data.header.case_text, o.particles + " (case)", overrides)
                                      : read_case(o.case_file, overrides);
-  LGIW_VALIDATE(c.dimension == data.header.dimension && c.dp == data.header.dp,
-                "the case does not fit " + o.particles, "its dimension or particle spacing is another",
-                "make the particles again with dem2particles");
+  LGIW_VALIDATE(c.dimension == data.header.dimension && c.dp == data.header.dp, "the case does not fit " + o.particles,
+                "its dimension or particle spacing is another", "make the particles again with dem2particles");
   LGIW_VALIDATE(data.header.counts.water + data.header.counts.soil > 0, o.particles + " holds nothing that moves",
                 "it has neither water nor soil particles", "check water.level, water.seed and slide of the case");
   if (o.threads == 0 && c.numerics.threads > 0) omp_set_num_threads(c.numerics.threads);
@@ -92,7 +95,8 @@ int run(const Options& o, int argc, char** argv) {
   options.overwrite = o.common.overwrite, options.resume = o.resume, options.provenance = o.common.provenance;
   options.provenance_json = provenance.to_json();
   options.progress = [&](double fraction, const std::string& note) { progress.update(fraction, note); };
-  if (!o.common.quiet) options.log = [](const std::string& line) { std::fprintf(stderr, "lgiw-run: %s\n", line.c_str()); };
+  if (!o.common.quiet)
+    options.log = [](const std::string& line) { std::fprintf(stderr, "lgiw-run: %s\n", line.c_str()); };
   std::string summary;
   try {
     summary = run_case(c, data, options);
@@ -112,8 +116,9 @@ int run(const Options& o, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs the soil-water SPH simulation of a particles file and writes frames, surfaces, maxima and diagnostics.",
-               "lgiw-run");
+  CLI::App app(
+      "Runs the soil-water SPH simulation of a particles file and writes frames, surfaces, maxima and diagnostics.",
+      "lgiw-run");
   Options o;
   app.add_option("PARTICLES", o.particles, "particles file of dem2particles")->required();
   app.add_option("-o,--output", o.output, "run file to write (VTKHDF)");
@@ -129,6 +134,7 @@ int main(int argc, char** argv) {
   app.add_option("--xmf", o.xmf, "write an Xdmf sidecar for ParaView before 5.12");
   std::string cuda;
   add_common_options(app, o.common, std::string("CUDA backend: ") + (cuda_available(&cuda) ? "yes" : cuda));
-  app.footer("Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv");
+  app.footer(
+      "Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv");
   return tool_main(app, argc, argv, [&] { return run(o, argc, argv); });
 }
