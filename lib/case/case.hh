@@ -123,7 +123,7 @@ struct Numerics {
   bool return_mapping = true;  // false: rate form, Eqs. (8)-(9)
   bool wall_viscosity = true;  // Pi_ib of physics.md section 8
   Precision precision = Precision::mixed;
-  double settle_time = 0;  // s of damped motion with the soil held before t = 0, to let the water find its place
+  double settle_time = 0;  // s of damped motion before t = 0; the soil is held unless its initial stress is to settle
   Backend backend = Backend::auto_;
   int threads = 0;  // 0: all
 };

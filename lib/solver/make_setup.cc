@@ -85,8 +85,11 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.free_slip_sides = s.sides == WallFriction::free_slip;
     p.bed_friction = std::tan(s.bed_friction_angle * degree);
     const double wave = SoilMaterial<double>::wave_speed(s.young_modulus, s.poisson_ratio, s.density);
-    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha
-                                         : 3 * std::sqrt(g * greatest_soil_height(data.soil, header.dp)) / wave;
+    const double height = greatest_soil_height(data.soil, header.dp);
+    p.settle_soil = s.initial_stress == InitialStress::settled;
+    p.soil_settle_rate = pi * wave / height;
+    if (p.settle_soil) p.settle_time = 20 * height / wave;
+    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : 3 * std::sqrt(g * height) / wave;
   }
   p.velocity_factor = c.interface.velocity_factor;
   p.repulsion = c.interface.repulsion;
@@ -101,6 +104,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
   }
   if (any_absorbing && water) p.absorbing_rate = 9 * std::sqrt(g * greatest_water_depth(data)) / p.absorbing_width;
   p.settle_rate = std::sqrt(g / p.dp);
+  if (c.numerics.settle_time > 0) p.settle_time = c.numerics.settle_time;
   return p;
 }
 

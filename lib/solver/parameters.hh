@@ -54,7 +54,7 @@ struct Parameters {
   double side_at[4];
   int absorbing[4];
   double absorbing_width;
-  T absorbing_rate, settle_rate;
+  T absorbing_rate, settle_rate, soil_settle_rate;
   T speed_limit;  // faster than this is a failed state
   // Time step.
   double cfl, fastest_wave, slowest_viscous;  // c, h / (alpha c) limit
@@ -106,6 +106,7 @@ struct Parameters {
     for (int s = 0; s < 4; ++s) absorbing[s] = p.absorbing[s], side_at[s] = p.side_at[s];
     absorbing_width = p.absorbing_width;
     absorbing_rate = T(p.absorbing_rate), settle_rate = T(p.settle_rate);
+    soil_settle_rate = T(p.soil_settle_rate);
     fastest_wave = std::max(water ? c : 0.0, cs);
     speed_limit = T(2 * fastest_wave);
     const double alpha_c = std::max(water ? p.water_alpha * c : 0.0, p.soil_alpha * cs);

@@ -206,15 +206,18 @@ class ParticleSimulation final : public Simulation {
     return st;
   }
 
-  void settle(bool on) override {
+  void settle(Settling mode) override {
     StepState st = state();
     StepState fresh;
-    fresh.settling = on;
+    fresh.settling = int32_t(mode);
     fresh.lost_water = st.lost_water, fresh.lost_soil = st.lost_soil;
     backend_.upload(state_, &fresh);
     for (auto& q : water_.v) backend_.zero(q);
     for (auto& q : water_.v_previous) backend_.zero(q);
+    for (auto& q : soil_.v) backend_.zero(q);
+    for (auto& q : soil_.v_previous) backend_.zero(q);
     if (n_water_ && p_.verlet) copy(water_.excess_previous, water_.excess);
+    for (int c = 0; c < S && n_soil_ && p_.verlet; ++c) copy(soil_.stress_previous[c], soil_.stress[c]);
     evaluate();
     finish(false);
   }

@@ -134,7 +134,7 @@ struct Motion : Pass<Tr> {
       w.key[i] = this->grid.cells;
       return;
     }
-    const bool held = !is_water && st.settling;
+    const bool held = !is_water && st.settling == int(Settling::water);
     Vec<double, D> x;
     bool fine = true, inside = true;
     double speed2 = 0;
@@ -152,7 +152,7 @@ struct Motion : Pass<Tr> {
         v = next;
       } else {
         v += T(0.5 * (st.dt + st.dt_previous)) * a;
-        if (is_water && st.settling) v *= T(1 / (1 + st.dt * double(p.settle_rate)));
+        if (st.settling) v *= T(1 / (1 + st.dt * double(is_water ? p.settle_rate : p.soil_settle_rate)));
         dx = st.dt * double(v);
       }
       const P position = P(double(w.position[k][i]) + dx);
@@ -335,7 +335,7 @@ struct SoilRates : Pass<Tr> {
     const auto& s = this->soil;
     const StepState& st = *this->state;
     const Stress<T, D> sigma = B::load_stress(s.stress, i);
-    if (this->idle() || i >= s.start[this->grid.cells] || st.settling) {
+    if (this->idle() || i >= s.start[this->grid.cells] || st.settling == int(Settling::water)) {
       B::store_stress(s.stress_next, i, sigma);
       return;
     }
@@ -364,10 +364,11 @@ struct SoilRates : Pass<Tr> {
     Stress<T, D> increment = elastic_increment(p.soil, sigma, l, dt);
     for (int k = 0; k < S; ++k) increment.c[k] += dt * p.stress_diffusion * p.volume * smoothing.c[k];
     Stress<T, D> next = euler ? sigma : B::load_stress(s.stress_previous, i);
-    T adps;
-    if (p.return_mapping) {
+    T adps = 0;
+    if (p.return_mapping || st.settling) {
       for (int k = 0; k < S; ++k) next.c[k] += increment.c[k];
-      adps = return_mapping(p.soil, next, pore);
+      // Elastic while settling: a slope that is to fail must not creep away before t = 0.
+      if (!st.settling) adps = return_mapping(p.soil, next, pore);
     } else {
       adps = rate_form_update(p.soil, next, increment, l, dt, pore);
     }

@@ -181,11 +181,13 @@ class Runner {
     writer_ = std::make_unique<RunWriter>(partial_path(options_.output), h);
   }
 
-  /// Lets the water find its place beside walls and soil before t = 0, damped, with the soil held.
+  /// Lets the water find its place beside walls and soil, and the soil its stress where the case asks for it, before t
+  /// = 0.
   void settle() {
-    const double duration = case_.numerics.settle_time;
-    if (!(duration > 0) || !header_.counts.water) return;
-    if (!simulation_->state().settling) simulation_->settle(true);  // set in a resumed run
+    const double duration = model_.settle_time;
+    if (!(duration > 0) || !(header_.counts.water || model_.settle_soil)) return;
+    if (!simulation_->state().settling)  // set in a resumed run
+      simulation_->settle(model_.settle_soil ? Settling::all : Settling::water);
     advance_to(duration);
     const StepState st = simulation_->state();
     extremes_["settle_steps"] = double(st.step);
@@ -195,9 +197,11 @@ class Runner {
     std::ostringstream line;
     line << "settled for " << duration << " s in " << st.step << " steps";
     for (const auto& [name, value] : rows)
-      if (name == "max_water_speed") line << "; fastest water before the start " << value << " m/s";
+      if (name == "max_water_speed" || (name == "max_soil_speed" && model_.settle_soil))
+        line << "; fastest " << (name == "max_water_speed" ? "water" : "soil") << " before the start " << value
+             << " m/s";
     log(line.str());
-    simulation_->settle(false);
+    simulation_->settle(Settling::off);
   }
 
   /// Steps until the time is `target`, with checkpoints by the clock and on a signal.
@@ -450,7 +454,7 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   }
   // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
   const double dt = p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30));
-  const double steps = (c.output.end_time + c.numerics.settle_time) / dt;
+  const double steps = (c.output.end_time + p.settle_time) / dt;
   nlohmann::ordered_json j;
   j["case"] = c.name;
   j["particles"] = {{"water", data.header.counts.water},

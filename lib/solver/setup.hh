@@ -36,7 +36,9 @@ struct ModelParameters {
   std::array<bool, 4> absorbing{};                 // west, east, south, north
   std::array<double, 4> side_at{};                 // their coordinates
   double absorbing_width = 0, absorbing_rate = 0;  // m, 1/s at the side itself
-  double settle_rate = 0;                          // 1/s: damping of the water while settling
+  double settle_rate = 0, soil_settle_rate = 0;    // 1/s: damping of water and soil while settling
+  double settle_time = 0;                          // s
+  bool settle_soil = false;
 };
 
 /// Particles in the order of the particles file; all [n] or [n][...] row by row.

@@ -13,13 +13,17 @@ namespace lgiw {
 
 enum class NumberType { single_, mixed, double_ };
 
+/// Damped motion before t = 0. water: the soil is held while the water finds its place; all: the soil, too, comes to
+/// rest under its weight, elastically, so that its stress is in balance whatever its shape.
+enum class Settling { off, water, all };
+
 /// Where the time stepping stands. Kept on the device; copied to the host when asked for.
 struct StepState {
   double time = 0, target = 0;     // s; steps are taken while time < target
   double dt = 0, dt_previous = 0;  // s
   int64_t step = 0;
   int32_t euler_countdown = 0;  // Verlet: steps left until the next Euler step
-  int32_t settling = 0;         // 1: the soil is held and the water damped
+  int32_t settling = 0;         // Settling
   int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous
   int32_t lost_water = 0, lost_soil = 0;
   uint32_t failed_water = UINT32_MAX,
@@ -52,8 +56,8 @@ class Simulation {
   /// Steps until time >= target or `max_steps` are done; returns the state then. Stops early on a failed particle.
   virtual StepState advance(double target, int64_t max_steps) = 0;
   virtual StepState state() const = 0;
-  /// Holds the soil and damps the water (on), or ends that: velocities and time are reset to zero.
-  virtual void settle(bool on) = 0;
+  /// Begins or ends settling: velocities and time are reset to zero.
+  virtual void settle(Settling mode) = 0;
   virtual void download(ParticleState& out) const = 0;
   /// Pressure (Pa) and, with soil, the image stress at the wall particles, in the order of the particles file.
   virtual void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const = 0;

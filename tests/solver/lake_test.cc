@@ -15,9 +15,9 @@ TEST(LakeAtRest, RealCanyonCalmsDownAndKeepsItsLevel) {
   ASSERT_GT(run.data.water.size(), 3000u);
   EXPECT_EQ(run.data.soil.size(), 0u);
   const double depth = 140, wave = std::sqrt(9.81 * depth);
-  run.simulation->settle(true);
+  run.simulation->settle(Settling::water);
   run.at(c.numerics.settle_time);
-  run.simulation->settle(false);
+  run.simulation->settle(Settling::off);
   double energy_at_10 = 0;
   std::vector<double> speeds;
   ParticleState s;
