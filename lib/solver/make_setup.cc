@@ -33,6 +33,18 @@ double sound_speed(const Case& c, const ParticleHeader& header) {
   return c.water.sound_speed > 0 ? c.water.sound_speed : header.sound_speed;
 }
 
+/// Longest edge of the box around the particles, m.
+double greatest_extent(const ParticleBlock& soil) {
+  double extent = 0;
+  for (int k = 0; k < 3; ++k) {
+    double low = soil.points[k], high = low;
+    for (std::size_t i = k; i < soil.points.size(); i += 3)
+      low = std::min(low, soil.points[i]), high = std::max(high, soil.points[i]);
+    extent = std::max(extent, high - low);
+  }
+  return extent;
+}
+
 double greatest_water_depth(const ParticleData& data) {
   double lowest = data.header.still_water_level;
   for (std::size_t i = 0; i < data.water.size(); ++i) lowest = std::min(lowest, data.water.points[3 * i + 2]);
@@ -87,8 +99,9 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     const double wave = SoilMaterial<double>::wave_speed(s.young_modulus, s.poisson_ratio, s.density);
     const double height = greatest_soil_height(data.soil, header.dp);
     p.settle_soil = s.initial_stress == InitialStress::settled;
-    p.soil_settle_rate = pi * wave / height;
-    if (p.settle_soil) p.settle_time = 20 * height / wave;
+    const double extent = std::max(greatest_extent(data.soil), header.dp);
+    p.soil_settle_rate = pi * wave / extent;
+    if (p.settle_soil) p.settle_time = 5 * extent / wave;
     p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : 3 * std::sqrt(g * height) / wave;
   }
   p.velocity_factor = c.interface.velocity_factor;

@@ -14,9 +14,9 @@ namespace lgiw {
 /// - absorbing sides: damping rate 9 sqrt(g d)/width at the side, d the greatest water depth: a long wave that crosses
 /// the zone
 ///   twice is left with exp(-3) of its height;
-/// - settling: damping rate sqrt(g/dp) of the water, pi c_s/H of the soil (critical for its slowest elastic wave); its
-/// time,
-///   where the soil settles and none is given, 20 H/c_s.
+/// - settling: damping rate sqrt(g/dp) of the water, pi c_s/L of the soil, critical for the slowest elastic wave of a
+/// body
+///   of length L; its time, where the soil settles and none is given, 5 L/c_s: exp(-7) of such waves are left.
 ModelParameters make_model(const Case& c, const ParticleData& data);
 InitialParticles make_particles(const Case& c, const ParticleData& data);
 NumberType number_type(Precision precision);

@@ -168,6 +168,7 @@ TEST_F(Slides, ThicknessWithPolygonAndThinCells) {
 
 TEST_F(Slides, PolygonFileInDegreesWithAHole) {
   // The outline of SetUp with a hole of 2 x 2 cells, in longitude and latitude.
+  GDALAllRegister();  // this test writes with GDAL before the library has done so
   OGRSpatialReference utm, degrees;
   utm.importFromEPSG(32611);
   degrees.importFromEPSG(4326);
