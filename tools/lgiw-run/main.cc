@@ -61,6 +61,18 @@ void refuse_existing(const std::string& path, bool overwrite) {
                 "it would be overwritten", "use -O to overwrite it or name another file");
 }
 
+/// What the particles were made from cannot be changed any more.
+void refuse_geometry(const std::vector<std::string>& overrides) {
+  for (const std::string& setting : overrides) {
+    const std::string key = setting.substr(0, setting.find('='));
+    bool fixed = key == "dimension" || key == "particle_spacing" || key == "water.level" || key == "water.seed";
+    for (const char* section : {"terrain", "slide", "water.bodies"})
+      fixed = fixed || key == section || key.rfind(std::string(section) + ".", 0) == 0;
+    LGIW_VALIDATE(!fixed, "--set " + key + " is too late", "the particles were made with the case's own value",
+                  "give it to dem2particles");
+  }
+}
+
 int run(const Options& o, int argc, char** argv) {
   LGIW_VALIDATE(o.dry_run || !o.output.empty(), "no output file is named", "the run has to go somewhere",
                 "use -o RUN.h5");
@@ -70,6 +82,7 @@ int run(const Options& o, int argc, char** argv) {
                   "use -o RUN.h5");
     AtomicFile probe(o.output, true);  // refuses a folder that cannot be written, before any work
   }
+  refuse_geometry(o.overrides);
   if (o.threads > 0) omp_set_num_threads(o.threads);
   const ParticleData data = read_particles(o.particles);
   std::vector<std::string> overrides = o.overrides;
