@@ -67,9 +67,9 @@ std::vector<std::string> case_warnings(const Case& c) {
   };
   const auto given = [&](const std::string& key) { return c.places.count(key) > 0; };
 
-  if (!c.slide.present && given("soil"))
+  if (!c.has_soil() && given("soil"))
     warn("soil", "soil has no effect", "there is no slide", "add slide or leave soil out");
-  if (!(c.slide.present && c.water.present) && given("interface"))
+  if (!(c.has_soil() && c.water.present) && given("interface"))
     warn("interface", "interface has no effect", "it needs both water and slide", "leave interface out");
   if (c.slide.present && c.soil.bed != WallFriction::coulomb && c.soil.sides != WallFriction::coulomb &&
       c.soil.bed_friction_angle > 0)

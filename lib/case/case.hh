@@ -24,6 +24,7 @@ enum class Integrator { leapfrog, verlet };
 enum class Precision { single_, mixed, double_ };
 enum class Backend { auto_, cpu, cuda };
 enum class InitialStress { k0, settled };
+enum class WaveKind { solitary, standing };
 
 struct TerrainSource {
   std::string file;           // any raster that GDAL opens; relative to the case file
@@ -50,6 +51,16 @@ struct Terrain {
   double runup_allowance = 0;  // m above the still water level up to which banks get walls; 0: automatic
 };
 
+/// A wave that is on the water at t = 0.
+struct Wave {
+  WaveKind kind = WaveKind::solitary;
+  double height = 0;       // solitary: m above the still water
+  double crest = 0;        // solitary: x of the crest, m
+  bool eastwards = false;  // solitary: runs towards +x
+  double amplitude = 0;    // standing: m
+  int mode = 1;            // standing: half wave lengths over the length of the domain
+};
+
 struct Water {
   bool present = false;
   double level = 0;            // still water level, m
@@ -59,7 +70,8 @@ struct Water {
   double viscosity_alpha = 0.05;
   double density_diffusion = 0.1;  // delta; 0 leaves it out
   std::vector<std::vector<Point2>>
-      bodies;  // 2-D/analytic: (x, z) polygons of water instead of "everything below level"
+      bodies;                // 2-D/analytic: (x, z) polygons of water instead of "everything below level"
+  std::optional<Wave> wave;  // analytic scenes
 };
 
 /// How the failure surface below the ground is given; exactly one.
@@ -82,6 +94,13 @@ struct SlideSurface {
   std::optional<Slbl> slbl;  // sloping local base level (Jaboyedoff et al. 2004; 2019)
 };
 
+/// The slide as a rigid body that moves as prescribed, instead of soil.
+struct SlideMotion {
+  std::string file;                            // CSV (lib/files/body_motion.hh), relative to the case file
+  std::optional<std::array<double, 3>> pivot;  // default: the centre of its volume
+  double heading = 90;                         // degrees clockwise from north: the direction in which it pitches
+};
+
 struct Slide {
   bool present = false;
   std::vector<Point2> polygon;  // map outline; or
@@ -89,6 +108,16 @@ struct Slide {
   SlideSurface surface;
   std::vector<std::vector<Point2>> bodies;  // analytic scenes: (x, z) polygons of soil
   double min_thickness = 0;                 // m: thinner soil is left out; 0: half dp
+  std::array<double, 3> velocity{0, 0, 0};  // m/s, of the soil at t = 0
+  std::optional<SlideMotion> motion;        // rigid; there is no soil then
+};
+
+/// A rigid body of an analytic scene that moves as prescribed.
+struct MovingBody {
+  std::string name;
+  std::vector<Point2> outline;  // x, z at t = 0; in 3-D over the whole width
+  std::string motion;           // CSV (lib/files/body_motion.hh), relative to the case file
+  std::optional<Point2> pivot;  // x, z; default: the centroid of the outline
 };
 
 struct Soil {
@@ -158,6 +187,7 @@ struct Case {
   Terrain terrain;
   Water water;
   Slide slide;
+  std::vector<MovingBody> bodies;
   Soil soil;
   Interface interface;
   Numerics numerics;
@@ -166,8 +196,9 @@ struct Case {
   std::vector<Section> sections;
   Deposit deposit;
 
-  std::string text;            // the YAML as read; with overrides, a YAML that holds them and reads the same
-  std::string path;            // where it was read, "-" for stdin, "" for text
+  std::string text;  // the YAML as read; with overrides, a YAML that holds them and reads the same
+  std::string path;  // where it was read, "-" for stdin, "" for text
+  bool has_soil() const { return slide.present && !slide.motion; }
   std::string folder() const;  // against which file names in it are resolved
   std::string resolve(const std::string& file) const;
   /// "file:line" (or the --set) of a dotted key such as "water.seed" or "gauges.0", of its nearest parent where it is

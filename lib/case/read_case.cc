@@ -29,6 +29,18 @@ const std::vector<std::pair<std::string, Side>> side_words{
 const std::vector<std::pair<std::string, WallFriction>> friction_words{
     {"rough", WallFriction::rough}, {"free_slip", WallFriction::free_slip}, {"coulomb", WallFriction::coulomb}};
 
+const Quantity velocity{.unit = "m/s", .low = -1000, .high = 1000};
+
+/// A vector [x, y, z], in 2-D given as [x, z].
+void read_vector(const YamlSection& s, const std::string& key, int dimension, std::array<double, 3>& target,
+                 const Quantity& horizontal, const Quantity& vertical, const std::string& form_3d,
+                 const std::string& form_2d) {
+  if (dimension == 3) return s.numbers(key, target.data(), {horizontal, horizontal, vertical}, form_3d);
+  std::array<double, 2> flat{0, 0};
+  s.numbers(key, flat.data(), {horizontal, vertical}, form_2d);
+  target = {flat[0], 0, flat[1]};
+}
+
 /// Outlines are open: a last point that repeats the first, as vector files have it, goes.
 void open_outline(std::vector<Point2>& outline) {
   if (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
@@ -66,6 +78,18 @@ void read_terrain(const YamlSection& s, Terrain& t) {
   s.number("runup_allowance", t.runup_allowance, automatic("m"));
 }
 
+void read_wave(const YamlSection& s, std::optional<Wave>& target) {
+  Wave wave;
+  s.require("kind", "waves differ in form and motion", "add kind: solitary or kind: standing");
+  s.choice<WaveKind>("kind", wave.kind, {{"solitary", WaveKind::solitary}, {"standing", WaveKind::standing}});
+  s.number("height", wave.height, above(0, "m"));
+  s.number("crest", wave.crest, coordinate);
+  s.choice<bool>("direction", wave.eastwards, {{"west", false}, {"east", true}});
+  s.number("amplitude", wave.amplitude, above(0, "m"));
+  s.integer("mode", wave.mode, between(1, 1000));
+  if (s.present()) target = wave;
+}
+
 void read_water(const YamlSection& s, Water& w) {
   w.present = s.present();
   s.require("level", "the still water level has no default", "add level, in m of the terrain's vertical datum");
@@ -84,6 +108,7 @@ void read_water(const YamlSection& s, Water& w) {
   s.number("density_diffusion", w.density_diffusion, between(0, 1));
   s.point_lists("bodies", w.bodies, "[x, z]");
   std::for_each(w.bodies.begin(), w.bodies.end(), open_outline);
+  read_wave(s.section("wave"), w.wave);
 }
 
 void read_plane(const YamlSection& s, std::optional<SlideSurface::Plane>& target) {
@@ -108,7 +133,31 @@ void read_slbl(const YamlSection& s, std::optional<SlideSurface::Slbl>& target) 
   if (s.present()) target = slbl;
 }
 
-void read_slide(const YamlSection& s, Slide& slide) {
+void read_motion(const YamlSection& s, int dimension, std::optional<SlideMotion>& target) {
+  SlideMotion motion;
+  s.require("file", "a rigid slide moves as a file says", "name a CSV file with the columns t_s,dx_m,dz_m");
+  s.text("file", motion.file);
+  std::array<double, 3> pivot{0, 0, 0};
+  read_vector(s, "pivot", dimension, pivot, coordinate, elevation, "[x, y, z]", "[x, z] in 2-D");
+  if (s.has("pivot")) motion.pivot = pivot;
+  s.number("heading", motion.heading, between(0, 360, "degrees"));
+  if (s.present()) target = motion;
+}
+
+void read_body(const YamlSection& s, MovingBody& body) {
+  for (const char* key : {"name", "outline", "motion"})
+    s.require(key, "a moving body has a name, an outline and a motion",
+              "write {name: B, outline: [[x, z], [x, z], [x, z]], motion: file.csv}");
+  s.text("name", body.name);
+  s.points("outline", body.outline, "[x, z]");
+  open_outline(body.outline);
+  s.text("motion", body.motion);
+  if (s.has("pivot")) body.pivot.emplace();
+  Point2 pivot{0, 0};
+  s.numbers("pivot", body.pivot ? body.pivot->data() : pivot.data(), {coordinate, elevation}, "[x, z]");
+}
+
+void read_slide(const YamlSection& s, int dimension, Slide& slide) {
   slide.present = s.present();
   s.points("polygon", slide.polygon, "[x, y]");
   open_outline(slide.polygon);
@@ -125,6 +174,8 @@ void read_slide(const YamlSection& s, Slide& slide) {
   s.point_lists("bodies", slide.bodies, "[x, z]");
   std::for_each(slide.bodies.begin(), slide.bodies.end(), open_outline);
   s.number("min_thickness", slide.min_thickness, automatic("m"));
+  read_vector(s, "velocity", dimension, slide.velocity, velocity, velocity, "[vx, vy, vz]", "[vx, vz] in 2-D");
+  read_motion(s.section("motion"), dimension, slide.motion);
 }
 
 void read_soil(const YamlSection& s, Soil& soil) {
@@ -239,7 +290,8 @@ void read_fields(const YamlSection& root, Case& c) {
   read_numerics(numerics, c.numerics);
   read_terrain(root.section("terrain"), c.terrain);
   read_water(root.section("water"), c.water);
-  read_slide(root.section("slide"), c.slide);
+  read_slide(root.section("slide"), c.dimension, c.slide);
+  root.list("bodies", c.bodies, read_body);
   read_soil(root.section("soil"), c.soil);
   read_interface(root.section("interface"), c.interface);
   read_output(root.section("output"), c.output);

@@ -27,6 +27,7 @@ class Validator {
     check_terrain();
     check_water();
     check_slide();
+    check_moving_bodies();
     check_soil();
     check_numerics();
     check_output();
@@ -65,6 +66,8 @@ class Validator {
     check_name("name", c_.name);
     refuse_if(!c_.water.present && !c_.slide.present, "", "neither water nor slide", "nothing would move",
               "add a water or a slide section");
+    refuse_if(!c_.water.present && !c_.has_soil(), "slide.motion", "a rigid slide without water",
+              "nothing but the slide itself would move", "add a water section");
     const auto& [gx, gy, gz] = c_.gravity;
     refuse_if(gz >= 0, "gravity", "gravity does not point down", "z points up, so its third component is negative",
               "write [0, 0, -9.81]");
@@ -180,6 +183,26 @@ class Validator {
     refuse_if(rasters() && !c_.water.seed, "water", "water.seed is missing",
               "not every hollow below the level is the reservoir", "add seed: [x, y], a point in the reservoir");
     if (c_.water.seed) check_inside("water.seed", "water.seed", *c_.water.seed);
+    if (c_.water.wave) check_wave(*c_.water.wave);
+  }
+
+  void check_wave(const Wave& wave) const {
+    refuse_if(rasters(), "water.wave", "water.wave with rasters", "initial waves are those of laboratory tanks",
+              "use terrain.profile");
+    refuse_if(!c_.water.bodies.empty(), "water.wave", "water.wave with water.bodies", "a wave runs on still water",
+              "leave one of the two out");
+    const bool solitary = wave.kind == WaveKind::solitary;
+    const std::vector<std::string> solitary_keys{"height", "crest", "direction"}, standing_keys{"amplitude", "mode"};
+    for (const std::string& key : solitary ? solitary_keys : standing_keys)
+      refuse_if(!given("water.wave." + key), "water.wave", "water.wave." + key + " is missing",
+                solitary ? "a solitary wave has a height, a crest and a direction"
+                         : "a standing wave has an amplitude and a mode",
+                "add " + key);
+    for (const std::string& key : solitary ? standing_keys : solitary_keys)
+      refuse_if(given("water.wave." + key), "water.wave." + key, "water.wave." + key + " has no meaning here",
+                solitary ? "the wave is solitary" : "the wave is standing", "leave it out");
+    if (!solitary) return;
+    check_inside("water.wave.crest", "water.wave.crest", {wave.crest, 0}, false);
   }
 
   void check_slide() const {
@@ -217,10 +240,36 @@ class Validator {
       check_polygon("slide.polygon", slide.polygon);
       for (const Point2& p : slide.polygon) check_inside("slide.polygon", "slide.polygon", p);
     }
+    if (slide.motion) check_motion(*slide.motion);
     if (s.slbl)
       refuse_if(s.slbl->neighbours != 4 && s.slbl->neighbours != 8, "slide.slbl.neighbours",
                 "slide.slbl.neighbours is " + std::to_string(s.slbl->neighbours),
                 "a cell has four neighbours, eight with diagonals", "write 4 or 8");
+  }
+
+  void check_motion(const SlideMotion& motion) const {
+    refuse_given({"soil", "slide.velocity"}, "the slide is rigid and moves as slide.motion says");
+    refuse_if(c_.dimension == 2 && motion.heading != 90 && motion.heading != 270, "slide.motion.heading",
+              "slide.motion.heading is " + number_text(motion.heading), "a 2-D scene lies in (x, z)",
+              "write 90 (+x) or 270 (-x)");
+  }
+
+  void check_moving_bodies() const {
+    std::set<std::string> names;
+    refuse_if(!c_.bodies.empty() && rasters(), "bodies", "bodies with rasters",
+              "bodies are (x, z) outlines of analytic scenes", "use a slide with slide.motion");
+    refuse_if(c_.bodies.size() > 250, "bodies", std::to_string(c_.bodies.size()) + " bodies",
+              "at most 250 can be numbered", "join those that move alike");
+    for (std::size_t i = 0; i < c_.bodies.size(); ++i) {
+      const MovingBody& body = c_.bodies[i];
+      const std::string key = "bodies." + std::to_string(i);
+      check_name(key + ".name", body.name);
+      refuse_if(body.name == "slide", key + ".name", "a body is named slide", "that is the slide's own name",
+                "rename it");
+      refuse_if(!names.insert(body.name).second, key + ".name", "two bodies are named " + body.name,
+                "their results would be mixed up", "rename one of them");
+      check_polygon(key + ".outline", body.outline);
+    }
   }
 
   void check_soil() const {
@@ -234,7 +283,7 @@ class Validator {
       refuse_if(friction == WallFriction::coulomb && soil.bed_friction_angle <= 0, key,
                 std::string(key) + " is coulomb without soil.bed_friction_angle", "the friction has no limit",
                 "add bed_friction_angle, in degrees");
-    refuse_if(soil.friction_angle == 0 && soil.cohesion == 0 && c_.slide.present, "soil.friction_angle",
+    refuse_if(soil.friction_angle == 0 && soil.cohesion == 0 && c_.has_soil(), "soil.friction_angle",
               "the soil has no strength", "friction_angle and cohesion are both 0",
               "give a friction angle, or the undrained strength as cohesion");
   }

@@ -11,6 +11,7 @@ namespace lgiw {
 namespace {
 
 const std::string format = "lgiw-particles 1";
+const std::string velocity_name = "/VTKHDF/PointData/Velocity";
 const char* const phase_names[] = {"water", "soil", "wall"};
 
 std::array<int64_t, 3> by_phase(const ParticleCounts& counts) { return {counts.water, counts.soil, counts.wall}; }
@@ -31,6 +32,9 @@ h5::File open_particles(const std::string& path, ParticleHeader& header) {
   if (counts.soil > 0) require_rows(file, "/lgiw/soil/Stress", counts.soil);
   if (counts.wall > 0) require_rows(file, "/lgiw/wall/Normal", counts.wall);
   if (counts.wall > 0) require_rows(file, "/lgiw/wall/Kind", counts.wall);
+  if (counts.wall > 0 && !header.bodies.empty()) require_rows(file, "/lgiw/wall/Body", counts.wall);
+  header.initial_velocity = file.exists(velocity_name);
+  if (header.initial_velocity) require_rows(file, velocity_name, counts.total());
   return file;
 }
 
@@ -65,6 +69,29 @@ void check_inside(const h5::File& file, const ParticleHeader& header, int64_t st
   }
 }
 
+/// Velocities of water and soil; empty where all are at rest.
+std::vector<float> read_velocities(const h5::File& file, Phase phase, int64_t start, int64_t n) {
+  std::vector<float> velocity = read_finite_rows<float>(file, velocity_name, start, n, 3);
+  const auto moving = std::find_if(velocity.begin(), velocity.end(), [](float v) { return v != 0; });
+  if (moving == velocity.end()) return {};
+  if (phase == Phase::wall)
+    refuse(file, velocity_name, "wall particle " + std::to_string((moving - velocity.begin()) / 3) + " has one");
+  return velocity;
+}
+
+/// Which bodies wall particles move with: exactly those of kind 2 with one.
+std::vector<uint8_t> read_bodies(const h5::File& file, const std::vector<uint8_t>& kind, std::size_t bodies) {
+  std::vector<uint8_t> body = read_finite_rows<uint8_t>(file, "/lgiw/wall/Body", 0, int64_t(kind.size()), 1);
+  for (std::size_t k = 0; k < body.size(); ++k) {
+    const std::string which = "that of wall particle " + std::to_string(k) + " is " + std::to_string(body[k]);
+    if (body[k] > bodies)
+      refuse(file, "/lgiw/wall/Body", which + " where /lgiw/bodies holds " + std::to_string(bodies));
+    if ((body[k] > 0) != (kind[k] == 2))
+      refuse(file, "/lgiw/wall/Body", which + " where its Kind is " + std::to_string(kind[k]));
+  }
+  return body;
+}
+
 ParticleBlock read_block(const h5::File& file, const ParticleHeader& header, Phase phase, int64_t start, int64_t n) {
   ParticleBlock block;
   block.phase = phase;
@@ -77,6 +104,7 @@ ParticleBlock read_block(const h5::File& file, const ParticleHeader& header, Pha
   block.density = read_finite_rows<float>(file, "/VTKHDF/PointData/Density", start, n, 1);
   check_positive(file, "/VTKHDF/PointData/Density", start, block.density);
   block.pressure = read_finite_rows<float>(file, "/VTKHDF/PointData/Pressure", start, n, 1);
+  if (header.initial_velocity) block.velocity = read_velocities(file, phase, start, n);
   if (phase == Phase::soil) block.stress = read_finite_rows<float>(file, "/lgiw/soil/Stress", 0, n, 6);
   if (phase == Phase::wall) {
     block.normal = read_finite_rows<float>(file, "/lgiw/wall/Normal", 0, n, 3);
@@ -87,9 +115,11 @@ ParticleBlock read_block(const h5::File& file, const ParticleHeader& header, Pha
     }
     block.kind = read_finite_rows<uint8_t>(file, "/lgiw/wall/Kind", 0, n, 1);
     for (int64_t k = 0; k < n; ++k)
-      if (block.kind[std::size_t(k)] > 1)
+      if (block.kind[std::size_t(k)] > (header.bodies.empty() ? 1 : 2))
         refuse(file, "/lgiw/wall/Kind",
-               "that of wall particle " + std::to_string(k) + " is neither 0 (bed) nor 1 (side)");
+               "that of wall particle " + std::to_string(k) +
+                   (header.bodies.empty() ? " is neither 0 (bed) nor 1 (side)" : " is not 0 (bed), 1 (side) or 2 (body)"));
+    if (!header.bodies.empty()) block.body = read_bodies(file, block.kind, header.bodies.size());
   }
   return block;
 }
@@ -105,12 +135,14 @@ ParticleWriter::ParticleWriter(const std::string& path, const ParticleHeader& he
   file_.create_dataset<uint8_t>("/VTKHDF/PointData/Phase", {n});
   for (const char* name : {"Volume", "Density", "Pressure"})
     file_.create_dataset<float>(std::string("/VTKHDF/PointData/") + name, {n});
+  if (header_.initial_velocity) file_.create_dataset<float>(velocity_name, {n, 3});
   write_particle_header(file_, header_, format);
   file_.set_attribute("/lgiw", "LeftOut", "{\"wall_particles\": " + std::to_string(counts.wall_left_out) + "}");
   if (counts.soil > 0) file_.create_dataset<float>("/lgiw/soil/Stress", {hsize_t(counts.soil), 6});
   if (counts.wall > 0) {
     file_.create_dataset<float>("/lgiw/wall/Normal", {hsize_t(counts.wall), 3});
     file_.create_dataset<uint8_t>("/lgiw/wall/Kind", {hsize_t(counts.wall)});
+    if (!header_.bodies.empty()) file_.create_dataset<uint8_t>("/lgiw/wall/Body", {hsize_t(counts.wall)});
   }
 }
 
@@ -127,6 +159,11 @@ void ParticleWriter::append(const ParticleBlock& block) {
       block.normal.size() != (block.phase == Phase::wall ? 3 * n : 0) ||
       block.kind.size() != (block.phase == Phase::wall ? n : 0))
     disagree("their arrays differ in length");
+  const bool wall = block.phase == Phase::wall, moving = !block.velocity.empty(), bodies = !block.body.empty();
+  if ((moving && block.velocity.size() != 3 * n) || (bodies && block.body.size() != n))
+    disagree("their arrays differ in length");
+  if (moving && (wall || !header_.initial_velocity)) disagree("they move, and the header says that they do not");
+  if (bodies && (!wall || header_.bodies.empty())) disagree("they belong to bodies, and the header has none");
   const std::array<int64_t, 3> counts = by_phase(header_.counts);
   int64_t& written = written_[std::size_t(p)];
   if (written + int64_t(n) > counts[std::size_t(p)])
@@ -137,6 +174,7 @@ void ParticleWriter::append(const ParticleBlock& block) {
   if (block.phase == Phase::wall) {
     file_.write_slab("/lgiw/wall/Normal", block.normal.data(), {start, 0}, {n, 3});
     file_.write_slab("/lgiw/wall/Kind", block.kind.data(), {start}, {n});
+    if (bodies) file_.write_slab("/lgiw/wall/Body", block.body.data(), {start}, {n});
   }
   for (int before = 0; before < p; ++before) start += hsize_t(counts[std::size_t(before)]);
   file_.write_slab("/VTKHDF/Points", block.points.data(), {start, 0}, {n, 3});
@@ -144,6 +182,7 @@ void ParticleWriter::append(const ParticleBlock& block) {
   file_.write_slab("/VTKHDF/PointData/Volume", block.volume.data(), {start}, {n});
   file_.write_slab("/VTKHDF/PointData/Density", block.density.data(), {start}, {n});
   file_.write_slab("/VTKHDF/PointData/Pressure", block.pressure.data(), {start}, {n});
+  if (moving) file_.write_slab(velocity_name, block.velocity.data(), {start, 0}, {n, 3});
   written += int64_t(n);
 }
 

@@ -10,8 +10,12 @@
 //     Case (YAML text), Provenance (JSON),
 //     LeftOut (JSON: what was left out and how much)
 //   /lgiw/soil/Stress float32 [n_soil,6]: xx yy zz xy yz xz, tension positive, total
-//   /lgiw/wall/Normal float32 [n_wall,3] into the domain;  /lgiw/wall/Kind uint8: 0 bed, 1 side
+//   /lgiw/wall/Normal float32 [n_wall,3] into the domain;  /lgiw/wall/Kind uint8: 0 bed, 1 side, 2 rigid body
+//   /lgiw/bodies/1, 2, ... rigid bodies that move as prescribed (BodyMotion): attributes Name, Pivot [3], Heading; Time
+//     and Pitch float64 [rows], Displacement float64 [rows,3]
+//   /lgiw/wall/Body uint8 [n_wall], where there are bodies: the number of the body that a particle moves with, 0: none
 //   /lgiw/bed, /lgiw/ground: float64 [ny,nx] with attributes x0, y0, dx (HeightField); ground: before the slide, soil on it
+// PointData/Velocity float32 [N,3], m/s at t = 0, only where something moves then; that of wall particles is 0.
 // A dataset of a phase that the scene lacks is absent, and so is an empty bed or ground.
 // Vertices hold one cell a particle, so that filters can pick particles by phase; their topology is deflated.
 #pragma once
@@ -22,6 +26,7 @@
 #include <vector>
 
 #include "case/case.hh"
+#include "files/body_motion.hh"
 #include "files/h5.hh"
 #include "files/height_field.hh"
 
@@ -47,6 +52,8 @@ struct ParticleHeader {
   double absorbing_width = 0;
   double sound_speed = 0;              // of the water, m/s; 0 without water
   HeightField bed, ground;
+  std::vector<BodyMotion> bodies;      // wall particles of kind 2 move with them; at most 255
+  bool initial_velocity = false;       // something moves at t = 0; told by PointData/Velocity, not kept in run files
   std::string case_text, provenance;
   ParticleCounts counts;
 };
@@ -58,7 +65,9 @@ struct ParticleBlock {
   std::vector<float> volume, density, pressure;
   std::vector<float> stress;           // soil: [n,6]
   std::vector<float> normal;           // wall: [n,3]
-  std::vector<uint8_t> kind;           // wall: [n]
+  std::vector<uint8_t> kind;           // wall: [n]; 0 bed, 1 side, 2 surface or inside of a moving body
+  std::vector<float> velocity{};       // water, soil: [n,3] m/s at t = 0; empty: at rest
+  std::vector<uint8_t> body{};         // wall: [n]; 0 fixed, k moves with header.bodies[k - 1]; empty: all fixed
   std::size_t size() const { return volume.size(); }
 };
 
@@ -84,7 +93,8 @@ struct ParticleData {
 
 /// Reads a whole file. Throws InputError for anything that is not a sound particles file: wrong format, sizes that do not
 /// agree or exceed the file, non-finite values, volumes or densities that are not positive, wall normals that are not unit
-/// vectors, water or soil outside the domain box (walls may lie outside, behind the sides).
+/// vectors, water or soil outside the domain box (walls may lie outside, behind the sides), walls of bodies that are not
+/// in the header. Of a phase that is at rest `velocity` stays empty, `body` without bodies.
 ParticleData read_particles(const std::string& path);
 ParticleHeader read_particle_header(const std::string& path);
 

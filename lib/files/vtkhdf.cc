@@ -1,5 +1,6 @@
 #include "files/vtkhdf.hh"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -48,6 +49,49 @@ std::array<double, 3> read_vector(const h5::File& file, const std::string& name)
   if (values.size() != 3)
     refuse(file, "/lgiw@" + name, "it has " + std::to_string(values.size()) + " values instead of 3");
   return {values[0], values[1], values[2]};
+}
+
+constexpr std::size_t most_bodies = 255;  // their numbers are uint8
+
+void write_bodies(h5::File& file, const std::vector<BodyMotion>& bodies) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const BodyMotion& body = bodies[k];
+    const std::string group = "/lgiw/bodies/" + std::to_string(k + 1);
+    const hsize_t rows = body.time.size();
+    file.make_group(group);
+    file.set_attribute(group, "Name", body.name);
+    file.set_attribute(group, "Pivot", std::vector<double>(body.pivot.begin(), body.pivot.end()));
+    file.set_attribute(group, "Heading", body.heading);
+    file.write(group + "/Time", body.time);
+    file.write(group + "/Pitch", body.pitch);
+    file.write(group + "/Displacement", body.displacement.data()->data(), {rows, 3});
+  }
+}
+
+std::vector<BodyMotion> read_bodies(const h5::File& file) {
+  std::vector<BodyMotion> bodies;
+  if (!file.exists("/lgiw/bodies")) return bodies;
+  const std::size_t count = file.children("/lgiw/bodies").size();
+  if (count > most_bodies) refuse(file, "/lgiw/bodies", "it holds more than 255");
+  for (std::size_t k = 1; k <= count; ++k) {
+    const std::string group = "/lgiw/bodies/" + std::to_string(k);
+    if (!file.exists(group)) refuse(file, "/lgiw/bodies", "its groups are not numbered from 1");
+    BodyMotion body;
+    body.name = file.text_attribute(group, "Name");
+    const std::vector<double> pivot = file.numbers_attribute(group, "Pivot");
+    if (pivot.size() != 3) refuse(file, group + "@Pivot", "it has " + std::to_string(pivot.size()) + " values");
+    std::copy(pivot.begin(), pivot.end(), body.pivot.begin());
+    body.heading = file.number_attribute(group, "Heading");
+    body.time = file.read<double>(group + "/Time");
+    body.pitch = file.read<double>(group + "/Pitch");
+    h5::Shape shape;
+    const std::vector<double> places = file.read<double>(group + "/Displacement", &shape);
+    if (shape.size() != 2 || shape[1] != 3) refuse(file, group + "/Displacement", "it does not hold 3 numbers a row");
+    for (std::size_t row = 0; row < shape[0]; ++row)
+      body.displacement.push_back({places[3 * row], places[3 * row + 1], places[3 * row + 2]});
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
 }
 
 /// A whole number from 0 to the largest count that a file could hold.
@@ -118,6 +162,11 @@ void check_particle_header(const ParticleHeader& header, const std::string& path
       problem, "a count of particles is negative or all are 0", suggestion);
   LGIW_VALIDATE(counts.water == 0 || std::isfinite(header.still_water_level), problem,
                 "there is water but no StillWaterLevel", suggestion);
+  LGIW_VALIDATE(header.bodies.size() <= most_bodies, problem, "more than 255 bodies move", suggestion);
+  for (const BodyMotion& body : header.bodies) {
+    const std::string fault = fault_of(body);
+    LGIW_VALIDATE(fault.empty(), problem, "the motion of a body is unsound: " + fault, suggestion);
+  }
   check_height_field(header.bed, "bed", path);
   check_height_field(header.ground, "ground", path);
 }
@@ -144,6 +193,7 @@ void write_particle_header(h5::File& file, const ParticleHeader& header, const s
   file.set_attribute("/lgiw", "WallLeftOut", counts.wall_left_out);
   file.set_attribute("/lgiw", "Case", header.case_text);
   file.set_attribute("/lgiw", "Provenance", header.provenance);
+  write_bodies(file, header.bodies);
   write_height_field(file, "/lgiw/bed", header.bed);
   write_height_field(file, "/lgiw/ground", header.ground);
 }
@@ -186,6 +236,7 @@ ParticleHeader read_header(const h5::File& file, const std::string& format, cons
   header.counts.wall_left_out = count_of(file, "WallLeftOut", file.number_attribute("/lgiw", "WallLeftOut"));
   header.case_text = file.text_attribute("/lgiw", "Case");
   header.provenance = file.text_attribute("/lgiw", "Provenance");
+  header.bodies = read_bodies(file);
   header.bed = read_height_field(file, "/lgiw/bed");
   header.ground = read_height_field(file, "/lgiw/ground");
   check_particle_header(header, file.path());

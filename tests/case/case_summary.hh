@@ -29,6 +29,8 @@ inline std::string case_summary(const Case& c) {
   field(w.present, w.level, w.density, w.sound_speed, w.viscosity_alpha, w.density_diffusion);
   if (w.seed) field((*w.seed)[0], (*w.seed)[1]);
   for (const auto& body : w.bodies) points(body);
+  if (w.wave)
+    field("wave", int(w.wave->kind), w.wave->height, w.wave->crest, w.wave->eastwards, w.wave->amplitude, w.wave->mode);
   const SlideSurface& s = c.slide.surface;
   field(c.slide.present, c.slide.polygon_file, c.slide.min_thickness, s.before, s.after, s.thickness,
         s.failure_surface);
@@ -38,6 +40,15 @@ inline std::string case_summary(const Case& c) {
   if (s.slbl) field("slbl", s.slbl->tolerance, s.slbl->max_depth, s.slbl->max_slope, s.slbl->neighbours);
   points(c.slide.polygon);
   for (const auto& body : c.slide.bodies) points(body);
+  field(c.slide.velocity[0], c.slide.velocity[1], c.slide.velocity[2]);
+  if (const auto& motion = c.slide.motion) {
+    field("motion", motion->file, motion->heading);
+    if (motion->pivot) field((*motion->pivot)[0], (*motion->pivot)[1], (*motion->pivot)[2]);
+  }
+  for (const MovingBody& body : c.bodies) {
+    field(body.name, body.motion), points(body.outline);
+    if (body.pivot) field((*body.pivot)[0], (*body.pivot)[1]);
+  }
   const Soil& soil = c.soil;
   field(soil.density, soil.friction_angle, soil.cohesion, soil.dilatancy_angle, soil.young_modulus, soil.poisson_ratio,
         soil.viscosity_alpha, soil.stress_diffusion, soil.artificial_stress, int(soil.cone), int(soil.pore_pressure),

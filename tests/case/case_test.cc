@@ -45,6 +45,45 @@ TEST(Case, MinimalCaseHasTheDefaultsOfTheHeader) {
   EXPECT_TRUE(case_warnings(c).empty());
 }
 
+TEST(Case, ReadsWavesMotionsAndMovingBodies) {
+  const std::string flume = "name: f\ndimension: 2\nparticle_spacing: 0.01\nterrain: {profile: [[0, 0], [10, 0]]}\n";
+  const Case solitary = parse_case(flume + R"(
+water: {level: 0.5, wave: {kind: solitary, height: 0.1, crest: 4, direction: east}}
+slide: {bodies: [[[1, 0], [2, 0], [2, 1]]], velocity: [1.5, -2]}
+bodies:
+- {name: plate, outline: [[3, 0], [3.1, 0], [3.1, 1], [3, 1], [3, 0]], motion: m/plate.csv}
+- {name: gate, outline: [[5, 0], [6, 0], [6, 1]], motion: gate.csv, pivot: [5.5, 2]}
+)",
+                                   "c.yaml");
+  ASSERT_TRUE(solitary.water.wave);
+  EXPECT_EQ(solitary.water.wave->kind, WaveKind::solitary);
+  EXPECT_EQ(solitary.water.wave->height, 0.1);
+  EXPECT_EQ(solitary.water.wave->crest, 4);
+  EXPECT_TRUE(solitary.water.wave->eastwards);
+  EXPECT_EQ(solitary.slide.velocity, (std::array<double, 3>{1.5, 0, -2}));
+  EXPECT_TRUE(solitary.has_soil());
+  ASSERT_EQ(solitary.bodies.size(), 2u);
+  EXPECT_EQ(solitary.bodies[0].name, "plate");
+  EXPECT_EQ(solitary.bodies[0].outline.size(), 4u) << "the repeated first point goes";
+  EXPECT_EQ(solitary.bodies[0].motion, "m/plate.csv");
+  EXPECT_FALSE(solitary.bodies[0].pivot);
+  EXPECT_EQ(*solitary.bodies[1].pivot, (Point2{5.5, 2}));
+
+  const Case standing = parse_case(flume + R"(
+water: {level: 0.5, wave: {kind: standing, amplitude: 0.02, mode: 3}}
+slide: {bodies: [[[1, 0], [2, 0], [2, 1]]], motion: {file: m.csv, pivot: [1.5, 0.5], heading: 270}}
+)",
+                                   "c.yaml");
+  EXPECT_EQ(standing.water.wave->kind, WaveKind::standing);
+  EXPECT_EQ(standing.water.wave->amplitude, 0.02);
+  EXPECT_EQ(standing.water.wave->mode, 3);
+  ASSERT_TRUE(standing.slide.motion);
+  EXPECT_FALSE(standing.has_soil());
+  EXPECT_EQ(standing.slide.motion->file, "m.csv");
+  EXPECT_EQ(*standing.slide.motion->pivot, (std::array<double, 3>{1.5, 0, 0.5}));
+  EXPECT_EQ(standing.slide.motion->heading, 270);
+}
+
 TEST(Case, ReadsEveryKindOfValue) {
   const Case c = parse_case(R"(
 name: "Canyon-2.b_o'clock"

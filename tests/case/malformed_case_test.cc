@@ -240,6 +240,11 @@ INSTANTIATE_TEST_SUITE_P(
             "BodiesWithRasters", "depth: 40", "bodies: [[[391000, 700], [391500, 700], [391500, 800]]]",
             "c.yaml:12: slide.bodies with rasters (bodies are (x, z) outlines of analytic scenes) use a polygon and a "
             "failure surface"},
+        Spoilt{"MovingBodiesWithRasters", "", "bodies: [{name: B, outline: [[1, 0], [2, 0], [2, 1]], motion: m.csv}]\n",
+               "c.yaml:18: bodies with rasters (bodies are (x, z) outlines of analytic scenes) use a slide with "
+               "slide.motion"},
+        Spoilt{"WaveWithRasters", "level: 740", "level: 740\n  wave: {kind: standing, amplitude: 1, mode: 2}",
+               "c.yaml:9: water.wave with rasters (initial waves are those of laboratory tanks) use terrain.profile"},
         Spoilt{"RastersIn2D", "particle_spacing: 12", "particle_spacing: 12\ndimension: 2",
                "c.yaml:5: rasters in a 2-D scene (a 2-D scene has a profile for its bed) set dimension: 3 or give "
                "terrain.profile"},
@@ -336,6 +341,52 @@ INSTANTIATE_TEST_SUITE_P(
                "c.yaml:10: gauge G has a y (a 2-D scene lies in (x, z)) leave y out"},
         Spoilt{"SectionWithY", "", "sections: [{name: A, points: [[0, 0], [1, 1]]}]\n",
                "c.yaml:10: section A has a y (a 2-D scene lies in (x, z)) write 0 for y"},
+        Spoilt{"WaveWithoutKind", "level: 0.1", "level: 0.1\n  wave: {height: 0.01}",
+               "c.yaml:8: water.wave.kind is missing (waves differ in form and motion) add kind: solitary or kind: "
+               "standing"},
+        Spoilt{
+            "SolitaryWaveWithoutCrest", "level: 0.1",
+            "level: 0.1\n  wave: {kind: solitary, height: 0.01, direction: east}",
+            "c.yaml:8: water.wave.crest is missing (a solitary wave has a height, a crest and a direction) add crest"},
+        Spoilt{"StandingWaveWithHeight", "level: 0.1",
+               "level: 0.1\n  wave: {kind: standing, amplitude: 0.01, mode: 1, height: 0.1}",
+               "c.yaml:8: water.wave.height has no meaning here (the wave is standing) leave it out"},
+        Spoilt{"WaveOutside", "level: 0.1",
+               "level: 0.1\n  wave: {kind: solitary, height: 0.01, crest: 3, direction: east}",
+               "c.yaml:8: water.wave.crest lies outside the domain ((3, 0) is beyond terrain.profile) move it or widen "
+               "the domain"},
+        Spoilt{"WaveOnBodies", "level: 0.1",
+               "level: 0.1\n  bodies: [[[1, 0], [2, 0], [2, 0.1]]]\n  wave: {kind: standing, amplitude: 0.01, mode: 1}",
+               "c.yaml:9: water.wave with water.bodies (a wave runs on still water) leave one of the two out"},
+        Spoilt{"VelocityOfThreeIn2D", "slide:", "slide:\n  velocity: [1, 0, -1]",
+               "c.yaml:9: slide.velocity has 3 numbers (2 are wanted) write [vx, vz] in 2-D"},
+        Spoilt{"MotionWithoutFile", "slide:", "slide:\n  motion: {heading: 90}",
+               "c.yaml:9: slide.motion.file is missing (a rigid slide moves as a file says) name a CSV file with the "
+               "columns t_s,dx_m,dz_m"},
+        Spoilt{"MotionWithSoil", "slide:", "soil: {density: 2700}\nslide:\n  motion: {file: m.csv}",
+               "c.yaml:8: soil has no meaning here (the slide is rigid and moves as slide.motion says) leave it out"},
+        Spoilt{"MotionWithVelocity", "slide:", "slide:\n  velocity: [1, 0]\n  motion: {file: m.csv}",
+               "c.yaml:9: slide.velocity has no meaning here (the slide is rigid and moves as slide.motion says) leave "
+               "it out"},
+        Spoilt{"HeadingIn2D", "slide:", "slide:\n  motion: {file: m.csv, heading: 180}",
+               "c.yaml:9: slide.motion.heading is 180 (a 2-D scene lies in (x, z)) write 90 (+x) or 270 (-x)"},
+        Spoilt{"MotionWithoutWater", "water:\n  level: 0.1\nslide:", "slide:\n  motion: {file: m.csv}",
+               "c.yaml:7: a rigid slide without water (nothing but the slide itself would move) add a water section"},
+        Spoilt{
+            "MovingBodyWithoutMotion", "", "bodies: [{name: B, outline: [[1, 0], [2, 0], [2, 1]]}]\n",
+            "c.yaml:10: bodies.0.motion is missing (a moving body has a name, an outline and a motion) write {name: B, "
+            "outline: [[x, z], [x, z], [x, z]], motion: file.csv}"},
+        Spoilt{"MovingBodyCrossesItself", "",
+               "bodies: [{name: B, outline: [[1, 0], [2, 1], [2, 0], [1, 1]], motion: m.csv}]\n",
+               "c.yaml:10: bodies.0.outline crosses or touches itself (its edge from (1, 0) meets another) list the "
+               "points once around, in order"},
+        Spoilt{"MovingBodiesOfOneName", "",
+               "bodies:\n- {name: B, outline: [[1, 0], [2, 0], [2, 1]], motion: m.csv}\n"
+               "- {name: B, outline: [[1, 2], [2, 2], [2, 3]], motion: m.csv}\n",
+               "c.yaml:12: two bodies are named B (their results would be mixed up) rename one of them"},
+        Spoilt{"MovingBodyNamedSlide", "",
+               "bodies: [{name: slide, outline: [[1, 0], [2, 0], [2, 1]], motion: m.csv}]\n",
+               "c.yaml:10: a body is named slide (that is the slide's own name) rename it"},
         Spoilt{"GravityAcross", "", "gravity: [0, 1, -9.81]\n",
                "c.yaml:10: gravity has a y component (a 2-D scene lies in (x, z)) write [0, 0, -9.81]"}),
     name_of);

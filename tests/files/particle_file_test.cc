@@ -78,6 +78,68 @@ TEST(ParticleFile, WaterAloneHasNoSoilDatasets) {
   EXPECT_EQ(file.children("/lgiw"), std::vector<std::string>());
 }
 
+BodyMotion small_motion() {
+  BodyMotion m;
+  m.name = "plate";
+  m.pivot = {1, 2, 3};
+  m.heading = 120;
+  m.time = {-1, 0, 2.5};
+  m.pitch = {0, 0, 0.25};
+  m.displacement = {{0, 0, 0}, {0, 0, 0}, {1.5, 0.5, -1}};
+  return m;
+}
+
+/// Everything moves: water, the soil at the outset, and the second wall particle with the second body.
+void write_moving_particles(const std::string& path) {
+  ParticleHeader header = small_header();
+  header.bodies = {small_motion(), small_motion()};
+  header.bodies[1].name = "gate";
+  header.initial_velocity = true;
+  ParticleWriter writer(path, header);
+  ParticleBlock water = small_water(), soil = small_soil(), wall = small_wall();
+  water.velocity = {1, 0, -1, 0.5f, 0, 0};
+  soil.velocity = {3, 0, -3};
+  wall.kind = {0, 2};
+  wall.body = {0, 2};
+  for (const ParticleBlock& block : {water, soil, wall}) writer.append(block);
+  writer.finish();
+}
+
+TEST(ParticleFile, RoundTripOfWhatMoves) {
+  const Scratch scratch;
+  const std::string path = scratch / "p.h5";
+  write_moving_particles(path);
+  const ParticleData data = read_particles(path);
+  EXPECT_TRUE(data.header.initial_velocity);
+  EXPECT_EQ(data.water.velocity, (std::vector<float>{1, 0, -1, 0.5f, 0, 0}));
+  EXPECT_EQ(data.soil.velocity, (std::vector<float>{3, 0, -3}));
+  EXPECT_TRUE(data.wall.velocity.empty());
+  EXPECT_EQ(data.wall.body, (std::vector<uint8_t>{0, 2}));
+  EXPECT_EQ(data.wall.kind, (std::vector<uint8_t>{0, 2}));
+  ASSERT_EQ(data.header.bodies.size(), 2u);
+  EXPECT_EQ(data.header.bodies[1].name, "gate");
+  for (const BodyMotion& m : data.header.bodies) {
+    EXPECT_EQ(m.pivot, small_motion().pivot);
+    EXPECT_EQ(m.heading, 120);
+    EXPECT_EQ(m.time, small_motion().time);
+    EXPECT_EQ(m.pitch, small_motion().pitch);
+    EXPECT_EQ(m.displacement, small_motion().displacement);
+  }
+  EXPECT_EQ(read_particle_header(path).bodies.size(), 2u);
+}
+
+TEST(ParticleFile, WhatRestsHasNoVelocities) {
+  const Scratch scratch;
+  write_small_particles(scratch / "p.h5");
+  const ParticleData data = read_particles(scratch / "p.h5");
+  EXPECT_FALSE(data.header.initial_velocity);
+  EXPECT_TRUE(data.water.velocity.empty() && data.soil.velocity.empty() && data.wall.body.empty());
+  const File file = File::open_read(scratch / "p.h5");
+  EXPECT_FALSE(file.exists("/VTKHDF/PointData/Velocity"));
+  EXPECT_FALSE(file.exists("/lgiw/bodies"));
+  EXPECT_FALSE(file.exists("/lgiw/wall/Body"));
+}
+
 TEST(ParticleFile, BlocksInAnyOrderAndPiecesGiveTheSameFile) {
   const Scratch scratch;
   write_small_particles(scratch / "a.h5");
@@ -218,11 +280,11 @@ TEST(ParticleFile, WriterRefusesWhatDoesNotFit) {
   EXPECT_FALSE(std::filesystem::exists(other));
 }
 
-/// The reading error of the small file after `damage`, and whether the header alone tells as well.
-std::string error_after(const std::function<void(File&)>& damage, bool in_header = false) {
+/// The reading error of the small file (or of the moving one) after `damage`, and whether the header alone tells it.
+std::string error_after(const std::function<void(File&)>& damage, bool in_header = false, bool moving = false) {
   const Scratch scratch;
   const std::string path = scratch / "p.h5";
-  write_small_particles(path);
+  (moving ? write_moving_particles : write_small_particles)(path);
   File file = File::open_write(path);
   damage(file);
   file.close();
@@ -289,6 +351,47 @@ TEST(MalformedParticles, ValuesOutOfBounds) {
             "/lgiw/wall/Normal of 'FILE' is unsound (that of wall particle 1 is not a unit vector)" + again);
   EXPECT_EQ(error_after(set<uint8_t>("/lgiw/wall/Kind", {0}, 2)),
             "/lgiw/wall/Kind of 'FILE' is unsound (that of wall particle 0 is neither 0 (bed) nor 1 (side))" + again);
+}
+
+TEST(MalformedParticles, BodiesAndVelocities) {
+  const auto moving_error = [](const std::function<void(File&)>& damage, bool in_header = false) {
+    return error_after(damage, in_header, true);
+  };
+  EXPECT_EQ(moving_error(set<uint8_t>("/lgiw/wall/Body", {1}, 3)),
+            "/lgiw/wall/Body of 'FILE' is unsound (that of wall particle 1 is 3 where /lgiw/bodies holds 2)" + again);
+  EXPECT_EQ(moving_error(set<uint8_t>("/lgiw/wall/Body", {0}, 1)),
+            "/lgiw/wall/Body of 'FILE' is unsound (that of wall particle 0 is 1 where its Kind is 0)" + again);
+  EXPECT_EQ(moving_error(set<uint8_t>("/lgiw/wall/Kind", {1}, 3)),
+            "/lgiw/wall/Kind of 'FILE' is unsound (that of wall particle 1 is not 0 (bed), 1 (side) or 2 (body))" +
+                again);
+  EXPECT_EQ(moving_error(set<float>("/VTKHDF/PointData/Velocity", {0, 1}, NAN)),
+            "/VTKHDF/PointData/Velocity of 'FILE' is unsound (the value of row 0 is not finite)" + again);
+  EXPECT_EQ(moving_error(set<float>("/VTKHDF/PointData/Velocity", {4, 1}, 1.f)),
+            "/VTKHDF/PointData/Velocity of 'FILE' is unsound (wall particle 1 has one)" + again);
+  const std::string motion = "the header of 'FILE' is unsound (the motion of a body is unsound: ";
+  EXPECT_EQ(moving_error(set<double>("/lgiw/bodies/2/Time", {1}, -2.0), true),
+            motion + "its times do not rise)" + again);
+  EXPECT_EQ(moving_error(set<double>("/lgiw/bodies/2/Displacement", {2, 2}, NAN), true),
+            motion + "a number is not finite)" + again);
+  EXPECT_EQ(moving_error([](File& f) { replace<double>(f, "/lgiw/bodies/1/Pitch", {0, 0}, {2}); }, true),
+            motion + "its lists differ in length)" + again);
+  EXPECT_EQ(moving_error([](File& f) { replace<double>(f, "/lgiw/bodies/1/Displacement", {0, 0, 0}, {3}); }, true),
+            "/lgiw/bodies/1/Displacement of 'FILE' is unsound (it does not hold 3 numbers a row)" + again);
+  EXPECT_EQ(moving_error(set_attribute("/lgiw/bodies/1", "Pivot", std::vector<double>{1, 2}), true),
+            "/lgiw/bodies/1@Pivot of 'FILE' is unsound (it has 2 values)" + again);
+  EXPECT_EQ(moving_error([](File& f) { remove_object(f, "/lgiw/bodies/1"); }, true),
+            "/lgiw/bodies of 'FILE' is unsound (its groups are not numbered from 1)" + again);
+  EXPECT_EQ(moving_error([](File& f) { replace<float>(f, "/VTKHDF/PointData/Velocity", {0, 0, 0}, {1, 3}); }, true),
+            "/VTKHDF/PointData/Velocity of 'FILE' is unsound (it has 1 rows where /lgiw@Counts says 5)" + again);
+
+  const Scratch scratch;
+  const std::string path = scratch / "p.h5";
+  ParticleWriter writer(path, small_header());
+  ParticleBlock water = small_water(), wall = small_wall();
+  water.velocity.assign(6, 1);
+  wall.body.assign(2, 1);
+  EXPECT_NE(error_of<WorkError>(path, [&] { writer.append(water); }).find("(they move, and"), std::string::npos);
+  EXPECT_NE(error_of<WorkError>(path, [&] { writer.append(wall); }).find("(they belong to"), std::string::npos);
 }
 
 TEST(MalformedParticles, SizesThatDisagree) {

@@ -66,7 +66,7 @@ void refuse_geometry(const std::vector<std::string>& overrides) {
   for (const std::string& setting : overrides) {
     const std::string key = setting.substr(0, setting.find('='));
     bool fixed = key == "dimension" || key == "particle_spacing" || key == "water.level" || key == "water.seed";
-    for (const char* section : {"terrain", "slide", "water.bodies"})
+    for (const char* section : {"terrain", "slide", "bodies", "water.bodies", "water.wave"})
       fixed = fixed || key == section || key.rfind(std::string(section) + ".", 0) == 0;
     LGIW_VALIDATE(!fixed, "--set " + key + " is too late", "the particles were made with the case's own value",
                   "give it to dem2particles");
