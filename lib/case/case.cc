@@ -91,7 +91,8 @@ std::vector<std::string> case_warnings(const Case& c) {
          "a lake at rest already moves as much", "set it to a quarter of particle_spacing or more");
   for (std::size_t i = 0; i < c.gauges.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (std::hypot(c.gauges[i].x - c.gauges[j].x, c.gauges[i].y - c.gauges[j].y) < c.dp)
+      if (c.gauges[i].quantity == GaugeQuantity::surface && c.gauges[j].quantity == GaugeQuantity::surface &&
+          std::hypot(c.gauges[i].x - c.gauges[j].x, c.gauges[i].y - c.gauges[j].y) < c.dp)
         warn("gauges." + std::to_string(i),
              "gauge " + c.gauges[i].name + " is less than a particle from " + c.gauges[j].name,
              "they measure the same column", "move one of them");

@@ -166,9 +166,12 @@ struct Output {
   double checkpoint_interval = 600;  // s of wall-clock time
 };
 
+enum class GaugeQuantity { surface, pressure };
 struct Gauge {
   std::string name;
   double x = 0, y = 0;
+  GaugeQuantity quantity = GaugeQuantity::surface;
+  double z = 0;  // m, elevation; of a pressure gauge
 };
 struct Section {
   std::string name;

@@ -266,6 +266,8 @@ void read_gauge(const YamlSection& s, Gauge& gauge) {
   s.text("name", gauge.name);
   s.number("x", gauge.x, coordinate);
   s.number("y", gauge.y, coordinate);
+  s.choice("quantity", gauge.quantity, {{"surface", GaugeQuantity::surface}, {"pressure", GaugeQuantity::pressure}});
+  s.number("z", gauge.z, elevation);
 }
 
 void read_section_line(const YamlSection& s, Section& section) {

@@ -323,7 +323,22 @@ class Validator {
         refuse_if(!given(key + ".y"), key, "gauge " + gauge.name + " has no y", "a gauge is a place in plan",
                   "write {name: " + gauge.name + ", x: ..., y: ...}");
       check_inside(key, "gauge " + gauge.name, {gauge.x, gauge.y});
+      check_quantity(key, gauge);
     }
+  }
+
+  void check_quantity(const std::string& key, const Gauge& gauge) const {
+    if (gauge.quantity == GaugeQuantity::surface) {
+      refuse_if(given(key + ".z"), key + ".z", "gauge " + gauge.name + " has a z",
+                "it measures the surface, wherever that is", "leave z out or add quantity: pressure");
+      return;
+    }
+    refuse_if(!given(key + ".z"), key, "pressure gauge " + gauge.name + " has no z",
+              "pressure is measured at a point in the water", "add z, its elevation in m");
+    refuse_if(!c_.water.present, key + ".quantity", "gauge " + gauge.name + " measures pressure without water",
+              "it is that of the water", "add water or leave quantity out");
+    refuse_if(gauge.name == "time", key + ".name", "a pressure gauge is named time",
+              "the times of its series have that name", "rename it");
   }
 
   void check_sections() const {

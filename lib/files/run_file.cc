@@ -42,6 +42,21 @@ std::vector<std::string> surface_names(const ParticleCounts& counts) {
   return names;
 }
 
+const std::string pressure_group = "/lgiw/pressure_gauges";
+
+std::string one_a_line(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += name + "\n";
+  return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 int64_t moving(const ParticleCounts& counts) { return counts.water + counts.soil; }
 
 h5::Shape rows_shape(hsize_t n, int width) { return width == 1 ? h5::Shape{n} : h5::Shape{n, hsize_t(width)}; }
@@ -129,6 +144,18 @@ RunWriter::RunWriter(const std::string& path, const RunHeader& header)
   const std::vector<float> none(map.size(), NAN);
   for (const std::string& name : maxima_names(counts))
     file_.write("/lgiw/maxima/" + name, none.data(), {map.ny, map.nx});
+  if (!header_.pressure_gauges.empty()) {
+    const std::vector<std::string>& names = header_.pressure_gauges;
+    file_.create_dataset<double>(pressure_group + "/time", {0}, true, false, {series_chunk});
+    for (const std::string& name : names) {
+      if (name.empty() || name == "time" || name.find_first_of("/\n") != std::string::npos ||
+          file_.exists(pressure_group + "/" + name))
+        misused(file_, "pressures", "'" + name + "' is no name for a new gauge");
+      file_.create_dataset<float>(pressure_group + "/" + name, {0}, true, false, {series_chunk});
+    }
+    file_.set_attribute(pressure_group, "Names", one_a_line(names));
+    file_.set_attribute(pressure_group, "Count", int64_t(0));
+  }
   file_.create_dataset<double>("/lgiw/diagnostics/time", {0}, true, false, {series_chunk});
   file_.set_attribute("/lgiw/diagnostics", "Count", int64_t(0));
   flush();
@@ -165,6 +192,9 @@ RunWriter RunWriter::reopen(const std::string& path, int64_t n_frames, int64_t n
   std::stable_sort(additions.begin(), additions.end(),
                    [](const Addition& a, const Addition& b) { return a.place < b.place; });
 
+  std::vector<std::vector<float>> pressures;
+  for (std::size_t g = 0; g < old.header().pressure_gauges.size(); ++g) pressures.push_back(old.pressure(g));
+
   const std::map<std::string, std::vector<double>> rows = old.diagnostics();
   std::vector<std::pair<haddr_t, std::string>> columns;
   for (const auto& [name, values] : rows)
@@ -179,8 +209,10 @@ RunWriter RunWriter::reopen(const std::string& path, int64_t n_frames, int64_t n
     if (addition.kind == Addition::frame) {
       writer.add_frame(old.frame(k));
     } else if (addition.kind == Addition::surface) {
+      std::vector<float> at_gauges;
+      for (const std::vector<float>& series : pressures) at_gauges.push_back(series[k]);
       writer.add_surface(old.surface_times()[k], old.has_water_surface() ? old.water_surface(k) : std::vector<float>(),
-                         old.has_soil_surface() ? old.soil_surface(k) : std::vector<float>());
+                         old.has_soil_surface() ? old.soil_surface(k) : std::vector<float>(), at_gauges);
     } else {
       for (std::size_t row = k; row < std::min<std::size_t>(k + series_chunk, std::size_t(n_diagnostics)); ++row) {
         std::vector<std::pair<std::string, double>> values;
@@ -226,14 +258,21 @@ void RunWriter::add_frame(const Frame& frame) {
   ++frames_;
 }
 
-void RunWriter::add_surface(double time, const std::vector<float>& water, const std::vector<float>& soil) {
+void RunWriter::add_surface(double time, const std::vector<float>& water, const std::vector<float>& soil,
+                            const std::vector<float>& pressures) {
   const ParticleCounts& counts = header_.particles.counts;
   const SurfaceMap& map = header_.map;
   require_length(file_, "a water surface", water.size(), counts.water > 0 ? map.size() : 0);
   require_length(file_, "a soil surface", soil.size(), counts.soil > 0 ? map.size() : 0);
+  require_length(file_, "pressures", pressures.size(), header_.pressure_gauges.size());
   if (counts.water > 0) file_.append("/lgiw/surface/water", water.data(), {1, map.ny, map.nx});
   if (counts.soil > 0) file_.append("/lgiw/surface/soil", soil.data(), {1, map.ny, map.nx});
   append_number(file_, "/lgiw/surface/time", time);
+  if (!pressures.empty()) {
+    for (std::size_t g = 0; g < pressures.size(); ++g)
+      file_.append(pressure_group + "/" + header_.pressure_gauges[g], &pressures[g], {1});
+    append_number(file_, pressure_group + "/time", time);
+  }
   ++surfaces_;
 }
 
@@ -275,6 +314,7 @@ void RunWriter::flush() {
   file_.flush();
   file_.set_attribute(steps, "NSteps", frames_);
   file_.set_attribute("/lgiw/surface", "Count", surfaces_);
+  if (!header_.pressure_gauges.empty()) file_.set_attribute(pressure_group, "Count", surfaces_);
   file_.set_attribute("/lgiw/diagnostics", "Count", diagnostics_);
   file_.flush();
 }
@@ -338,6 +378,13 @@ RunReader::RunReader(const std::string& path) : file_(h5::File::open_read(path))
       refuse(file_, "/lgiw/surface/" + name, "its maps have not the size of the maxima");
     require_rows("/lgiw/surface/" + name, n_surfaces, 1);
   }
+  if (file_.exists(pressure_group)) {
+    header_.pressure_gauges = lines_of(file_.text_attribute(pressure_group, "Names"));
+    // Written with the surfaces.
+    if (read_count(file_, pressure_group, "Count") != n_surfaces)
+      refuse(file_, pressure_group + "@Count", "it is not that of the surfaces");
+    for (const std::string& name : header_.pressure_gauges) require_rows(pressure_group + "/" + name, n_surfaces, 1);
+  }
   diagnostics_count_ = std::size_t(read_count(file_, "/lgiw/diagnostics", "Count"));
   for (const std::string& name : file_.children("/lgiw/diagnostics"))
     require_rows("/lgiw/diagnostics/" + name, int64_t(diagnostics_count_), 1);
@@ -390,6 +437,12 @@ std::vector<float> RunReader::soil_surface_at(std::size_t i, std::size_t j) cons
 std::vector<float> RunReader::maximum(const std::string& name) const {
   const std::string object = "/lgiw/maxima/" + name;
   return file_.exists(object) ? file_.read<float>(object) : std::vector<float>();
+}
+
+std::vector<float> RunReader::pressure(std::size_t k) const {
+  LGIW_EXPECT(k < header_.pressure_gauges.size());
+  return read_finite_rows<float>(file_, pressure_group + "/" + header_.pressure_gauges[k], 0,
+                                 int64_t(surface_times_.size()), 1);
 }
 
 std::map<std::string, std::vector<double>> RunReader::diagnostics() const {

@@ -13,9 +13,11 @@
 //   /lgiw/maxima: float32 [ny,nx], same map, accumulated while running: elevation (of the water surface), depth, speed
 //       (of water), arrival (first time at which the surface differs from still level, or a dry bed is wet, by more than
 //       the arrival threshold; NaN: never), soil_speed (absent without soil). Absent without water except soil_speed.
+//   /lgiw/pressure_gauges, where the case has any: attributes Count (nt), Names (one a line); time float64 [nt], the times of
+//       the surfaces; one float32 [nt] dataset a gauge, by its name: pressure of the water, Pa; 0 where there is none
 //   /lgiw/diagnostics: attribute Count (nd); time float64 [nd], and one float64 [nd] dataset a quantity (the columns of the
 //       diagnostics CSV)
-// Steps@NSteps and the two Count attributes are written at flush(), after all else is in the file: they alone say how much of
+// Steps@NSteps and the Count attributes are written at flush(), after all else is in the file: they alone say how much of
 // it is valid. In a file whose writer was killed, datasets may be longer than they say.
 // Surface series are deflated tiles of at most 128 x 128 nodes of one map, so that a node's series is cheap to read.
 #pragma once
@@ -51,6 +53,7 @@ struct RunHeader {
   std::string left_out;          // JSON list of strings
   SurfaceMap map;
   std::vector<float> initial_soil;  // [n_soil,3]
+  std::vector<std::string> pressure_gauges;  // their names
 };
 
 /// Writes a run frame by frame; the file is whole and readable after every flush(), whatever happens to the process before the
@@ -65,7 +68,9 @@ class RunWriter {
   /// it was until it is done. The rasters of the maxima are those of the last flush; write_maxima() replaces them.
   static RunWriter reopen(const std::string& path, int64_t frames, int64_t surfaces, int64_t diagnostics);
   void add_frame(const Frame& frame);
-  void add_surface(double time, const std::vector<float>& water, const std::vector<float>& soil);
+  /// `pressures` are those at the header's pressure gauges, in its order.
+  void add_surface(double time, const std::vector<float>& water, const std::vector<float>& soil,
+                   const std::vector<float>& pressures = {});
   void add_diagnostics(double time, const std::vector<std::pair<std::string, double>>& values);
   void write_maxima(const std::map<std::string, std::vector<float>>& rasters);  // replaces
   void write_summary(const std::string& json);
@@ -100,6 +105,8 @@ class RunReader {
   std::vector<float> water_surface_at(std::size_t i, std::size_t j) const;
   std::vector<float> soil_surface_at(std::size_t i, std::size_t j) const;
   std::vector<float> maximum(const std::string& name) const;  // empty when absent
+  /// Series of the header's `k`-th pressure gauge at surface_times(), Pa.
+  std::vector<float> pressure(std::size_t k) const;
   std::map<std::string, std::vector<double>> diagnostics() const;
   std::string summary() const;   // JSON text, "" while the run is not finished
 

@@ -22,6 +22,7 @@
 #include "solver/checkpoint.hh"
 #include "solver/diagnostics.hh"
 #include "solver/make_setup.hh"
+#include "solver/water_pressure.hh"
 
 namespace lgiw {
 namespace {
@@ -94,6 +95,7 @@ class Runner {
     surface_interval_ = frames / double(per_frame_);
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
     last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
+    place_pressure_gauges();
     identity_ = identity(data);
     if (options.resume)
       resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
@@ -128,6 +130,22 @@ class Runner {
  private:
   void log(const std::string& line) const {
     if (options_.log) options_.log(line);
+  }
+  void place_pressure_gauges() {
+    for (const Gauge& gauge : case_.gauges) {
+      if (gauge.quantity != GaugeQuantity::pressure) continue;
+      const std::array<double, 3> at{gauge.x - header_.origin[0],
+                                     header_.dimension == 3 ? gauge.y - header_.origin[1] : 0.0,
+                                     gauge.z - header_.origin[2]};
+      LGIW_VALIDATE(at[2] >= header_.low[2] && at[2] <= header_.high[2],
+                    "pressure gauge " + gauge.name + " lies outside the domain",
+                    "its z of " + std::to_string(gauge.z) + " m is not between " +
+                        std::to_string(header_.low[2] + header_.origin[2]) + " and " +
+                        std::to_string(header_.high[2] + header_.origin[2]) + " m",
+                    "move it");
+      gauge_names_.push_back(gauge.name);
+      gauge_points_.push_back(at);
+    }
   }
   /// A new run would discard the checkpoint of another.
   void refuse_unfinished() const {
@@ -178,6 +196,7 @@ class Runner {
     h.left_out = nlohmann::json(simulation_->left_out()).dump();
     h.map = map_;
     h.initial_soil = initial_soil_;
+    h.pressure_gauges = gauge_names_;
     writer_ = std::make_unique<RunWriter>(partial_path(options_.output), h);
   }
 
@@ -289,7 +308,8 @@ class Runner {
           side % 2 ? header_.high[side / 2] : header_.low[side / 2];
     }
     const ColumnSurfaces surfaces = column_surfaces(columns, map_, header_.bed);
-    writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil);
+    writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil,
+                         water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
     const auto row = diagnose(model_, s, st, header_.bed);
@@ -427,6 +447,8 @@ class Runner {
   std::vector<float> initial_soil_, initial_elevation_;
   std::map<std::string, std::vector<float>> maxima_;
   std::map<std::string, double> extremes_;
+  std::vector<std::string> gauge_names_;             // of the pressure gauges
+  std::vector<std::array<double, 3>> gauge_points_;  // local
   std::string identity_, resume_note_;
   Checkpoint resumed_;
   double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0;

@@ -59,7 +59,7 @@ inline std::string case_summary(const Case& c) {
         int(n.precision), n.settle_time, int(n.backend), n.threads);
   const Output& o = c.output;
   field(o.end_time, o.frame_interval, o.surface_interval, o.map_spacing, o.arrival_threshold, o.checkpoint_interval);
-  for (const Gauge& g : c.gauges) field(g.name, g.x, g.y);
+  for (const Gauge& g : c.gauges) field(g.name, g.x, g.y, int(g.quantity), g.z);
   for (const Section& section : c.sections) field(section.name), points(section.points);
   field(c.deposit.adps_threshold);
   return out.str();

@@ -196,7 +196,7 @@ particle_spacing: 0.005
 terrain: {profile: [[-0.15, 0.15], [0, 0], [2.2, 0]]}
 water: {level: 0.1, bodies: [[[0, 0], [1, 0], [1, 0.1], [0, 0.1]]]}
 slide: {bodies: [[[-0.1, 0.1], [-0.05, 0.1], [-0.05, 0.05]]]}
-gauges: [{name: G1, x: 0.45}]
+gauges: [{name: G1, x: 0.45}, {name: P1, x: 0.45, z: 0.02, quantity: pressure}]
 sections: [{name: A, points: [[0, 0], [2, 0]]}]
 )",
                                 "c.yaml");
@@ -205,6 +205,10 @@ sections: [{name: A, points: [[0, 0], [2, 0]]}]
   EXPECT_EQ(flume.water.bodies[0][2], (Point2{1, 0.1}));
   EXPECT_EQ(flume.slide.bodies[0][2], (Point2{-0.05, 0.05}));
   EXPECT_EQ(flume.gauges[0].y, 0);
+  EXPECT_EQ(flume.gauges[0].quantity, GaugeQuantity::surface);
+  EXPECT_EQ(flume.gauges[1].quantity, GaugeQuantity::pressure);
+  EXPECT_EQ(flume.gauges[1].z, 0.02);
+  EXPECT_TRUE(case_warnings(flume).empty()) << "a gauge of another kind may stand in the same column";
   const Case basin = parse_case(R"(name: basin
 particle_spacing: 0.02
 terrain: {profile: [[0, 1], [1, 0], [3, 0]], width: 0.5}

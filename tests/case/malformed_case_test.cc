@@ -339,6 +339,21 @@ INSTANTIATE_TEST_SUITE_P(
                "c.yaml:9: slide.bodies.0 has 2 points (an outline needs three) add points around it"},
         Spoilt{"GaugeWithY", "", "gauges: [{name: G, x: 1, y: 2}]\n",
                "c.yaml:10: gauge G has a y (a 2-D scene lies in (x, z)) leave y out"},
+        Spoilt{"GaugeWithZ", "", "gauges: [{name: G, x: 1, z: 2}]\n",
+               "c.yaml:10: gauge G has a z (it measures the surface, wherever that is) leave z out or add quantity: "
+               "pressure"},
+        Spoilt{"PressureWithoutZ", "", "gauges: [{name: G, x: 1, quantity: pressure}]\n",
+               "c.yaml:10: pressure gauge G has no z (pressure is measured at a point in the water) add z, its "
+               "elevation in m"},
+        Spoilt{"PressureWithoutWater", "water:\n  level: 0.1\n",
+               "gauges: [{name: G, x: 1, z: 0, quantity: pressure}]\n",
+               "c.yaml:6: gauge G measures pressure without water (it is that of the water) add water or leave "
+               "quantity out"},
+        Spoilt{"PressureNamedTime", "", "gauges: [{name: time, x: 1, z: 0, quantity: pressure}]\n",
+               "c.yaml:10: a pressure gauge is named time (the times of its series have that name) rename it"},
+        Spoilt{
+            "QuantityUnknown", "", "gauges: [{name: G, x: 1, z: 0, quantity: speed}]\n",
+            "c.yaml:10: gauges.0.quantity is \"speed\" (it is one of surface or pressure) did you mean \"surface\"?"},
         Spoilt{"SectionWithY", "", "sections: [{name: A, points: [[0, 0], [1, 1]]}]\n",
                "c.yaml:10: section A has a y (a 2-D scene lies in (x, z)) write 0 for y"},
         Spoilt{"WaveWithoutKind", "level: 0.1", "level: 0.1\n  wave: {height: 0.01}",

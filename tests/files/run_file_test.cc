@@ -12,7 +12,7 @@ namespace {
 
 using h5::File;
 
-/// The run of the small scene: 2 particles of water, 1 of soil, a map of 3 by 2 nodes.
+/// The run of the small scene: 2 particles of water, 1 of soil, a map of 3 by 2 nodes, two pressure gauges.
 RunHeader small_run() {
   RunHeader header;
   header.particles = small_header();
@@ -20,6 +20,7 @@ RunHeader small_run() {
   header.left_out = "[\"artificial stress\"]";
   header.map = {3, 2, 1, 0.5, 2};
   header.initial_soil = {1, 2, 3};
+  header.pressure_gauges = {"wall", "bed"};
   return header;
 }
 
@@ -40,7 +41,7 @@ void add_step(RunWriter& writer, int step) {
   if (step % 3 == 0) writer.add_frame(small_frame(step / 3));
   for (int row = 0; row < 3; ++row)
     writer.add_diagnostics(step + row / 3.0, {{"mass", 5.0}, {"energy", -1.0 * step}, {"a density", 1000.0 + row}});
-  writer.add_surface(0.25 * step, small_map(step), small_map(-step));
+  writer.add_surface(0.25 * step, small_map(step), small_map(-step), {100 + float(step), 200 - float(step)});
 }
 
 void finish(RunWriter& writer) {
@@ -97,6 +98,10 @@ TEST(RunFile, RoundTrip) {
   expect_same(run.soil_surface(4), small_map(-4));
   EXPECT_EQ(run.water_surface_at(2, 1), (std::vector<float>{0, 0.5f, 1, 1.5f, 2, 2.5f, 3}));
   EXPECT_EQ(run.soil_surface_at(0, 0), (std::vector<float>{0, -1, -2, -3, -4, -5, -6}));
+  EXPECT_EQ(run.header().pressure_gauges, (std::vector<std::string>{"wall", "bed"}));
+  EXPECT_EQ(run.pressure(0), (std::vector<float>{100, 101, 102, 103, 104, 105, 106}));
+  EXPECT_EQ(run.pressure(1), (std::vector<float>{200, 199, 198, 197, 196, 195, 194}));
+  EXPECT_EQ(File::open_read(path).read<double>("/lgiw/pressure_gauges/time"), run.surface_times());
   expect_same(run.maximum("elevation"), small_map(9));
   expect_same(run.maximum("depth"), std::vector<float>(6, NAN));
   EXPECT_TRUE(run.maximum("nonsense").empty());
@@ -113,6 +118,7 @@ TEST(RunFile, LeavesOutWhatTheSceneLacks) {
   RunHeader header = small_run();
   header.particles.counts = {0, 1, 0, 0};
   header.particles.still_water_level = NAN;
+  header.pressure_gauges.clear();
   RunWriter writer(scratch / "soil.h5", header);
   writer.add_frame({0, {1, 2, 3}, {0, 0, 0}, {}, {0.5f}, {0}});
   writer.add_surface(0, {}, small_map(1));
@@ -126,10 +132,16 @@ TEST(RunFile, LeavesOutWhatTheSceneLacks) {
   const File file = File::open_read(scratch / "soil.h5");
   EXPECT_EQ(file.children("/VTKHDF/PointData"), (std::vector<std::string>{"Adps", "Lost", "Phase", "Velocity"}));
   EXPECT_EQ(file.children("/lgiw/maxima"), std::vector<std::string>{"soil_speed"});
+  EXPECT_TRUE(soil.header().pressure_gauges.empty());
+  EXPECT_FALSE(file.exists("/lgiw/pressure_gauges"));
 
   header.particles.counts = {2, 0, 0, 0};
   header.particles.still_water_level = 2;
   header.initial_soil.clear();
+  header.pressure_gauges = {"time"};
+  EXPECT_EQ(error_of<WorkError>(scratch / "water.h5", [&] { RunWriter(scratch / "water.h5", header); }),
+            "cannot add pressures to 'FILE' ('time' is no name for a new gauge) report this as a fault of the program");
+  header.pressure_gauges.clear();
   RunWriter water(scratch / "water.h5", header);
   water.add_frame({0, {1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0}, {7, 8}, {}, {0, 0}});
   EXPECT_EQ(error_of<WorkError>(scratch / "water.h5", [&] { water.add_surface(0, small_map(1), small_map(1)); }),
@@ -191,6 +203,7 @@ TEST(RunFile, LargeMapsAreTiledAndNodesReadAsSeries) {
   const Scratch scratch;
   RunHeader header = small_run();
   header.map = {300, 200, 0, 0, 1};
+  header.pressure_gauges.clear();
   RunWriter writer(scratch / "r.h5", header);
   std::vector<float> map(header.map.size());
   for (int k = 0; k < 5; ++k) {
@@ -301,6 +314,8 @@ TEST(RunFile, KilledWriterLeavesTheFileOfTheLastFlush) {
     EXPECT_EQ(run.frame(33).points, small_frame(33).points);
     expect_same(run.soil_surface(99), small_map(-99));
     EXPECT_EQ(run.water_surface_at(0, 0)[99], 99);
+    EXPECT_EQ(run.pressure(1).size(), 100u);
+    EXPECT_EQ(run.pressure(1)[99], 101);
   }
   RunWriter writer = RunWriter::reopen(path, 34, 100, 300);
   for (int step = 100; step < 250; ++step) add_step(writer, step);
@@ -321,6 +336,7 @@ std::string error_after(const std::function<void(File&)>& damage) {
     const RunReader run(path);
     for (std::size_t k = 0; k < run.frame_count(); ++k) run.frame(k);
     for (std::size_t k = 0; k < run.surface_times().size(); ++k) run.water_surface(k);
+    for (std::size_t k = 0; k < run.header().pressure_gauges.size(); ++k) run.pressure(k);
     run.diagnostics();
   });
 }
@@ -342,6 +358,13 @@ TEST(MalformedRun, IsRefusedWithTheReason) {
   EXPECT_EQ(
       error_after([](File& f) { f.set_attribute("/lgiw/diagnostics", "Count", int64_t(13)); }),
       "/lgiw/diagnostics/a density of 'FILE' is unsound (it is shorter than the 13 rows that are counted)" + again);
+  EXPECT_EQ(error_after([](File& f) { f.set_attribute("/lgiw/pressure_gauges", "Count", int64_t(3)); }),
+            "/lgiw/pressure_gauges@Count of 'FILE' is unsound (it is not that of the surfaces)" + again);
+  EXPECT_EQ(error_after([](File& f) { f.set_attribute("/lgiw/pressure_gauges", "Names", "wall\nsky\n"); }),
+            "cannot read '/lgiw/pressure_gauges/sky' of 'FILE' (there is no such dataset) the file is damaged or of "
+            "another kind, make it again");
+  EXPECT_EQ(error_after(set("/lgiw/pressure_gauges/bed", {2}, NAN)),
+            "/lgiw/pressure_gauges/bed of 'FILE' is unsound (the value of row 2 is not finite)" + again);
   EXPECT_EQ(error_after(set("/VTKHDF/Steps/Values", {1}, -1)),
             "/VTKHDF/Steps/Values of 'FILE' is unsound (a time is earlier than the one before it)" + again);
   EXPECT_EQ(error_after(set("/VTKHDF/Steps/Values", {1}, NAN)),
@@ -387,6 +410,7 @@ TEST(MalformedRun, TruncationsAndDamagedBytesNeverCrash) {
     for (std::size_t k = 0; k < run.frame_count(); ++k) run.frame(k);
     for (std::size_t k = 0; k < run.surface_times().size(); ++k) run.soil_surface(k);
     run.water_surface_at(1, 1);
+    for (std::size_t k = 0; k < run.header().pressure_gauges.size(); ++k) run.pressure(k);
     run.diagnostics();
   };
   for (std::size_t size = 1; size < bytes.size(); size += 1 + size / 20) {

@@ -76,8 +76,12 @@ Gauge parsed_gauge(const std::string& text, int dimension) {
 }
 
 std::vector<Gauge> chosen_gauges(const Options& options, const Case& c, const ParticleHeader& header) {
-  if (options.gauges.empty()) return c.gauges;
   std::vector<Gauge> gauges;
+  if (options.gauges.empty()) {
+    for (const Gauge& gauge : c.gauges)
+      if (gauge.quantity == GaugeQuantity::surface) gauges.push_back(gauge);
+    return gauges;
+  }
   std::set<std::string> names;
   for (const std::string& text : options.gauges) {
     gauges.push_back(parsed_gauge(text, header.dimension));
