@@ -173,6 +173,7 @@ struct SoilView {
 template <class Tr>
 struct WallView {
   static constexpr int D = Tr::D;
+  static constexpr bool moving = false;
   using T = typename Tr::T;
   int n = 0;
   const int* start = nullptr;
@@ -185,6 +186,22 @@ struct WallView {
   T* v[D] = {};  // soil: image velocity, image stress
   T* stress[Tr::S] = {};
   unsigned* id = nullptr;
+};
+
+/// Wall particles of the bodies that move as prescribed.
+template <class Tr>
+struct BodyView : WallView<Tr> {
+  static constexpr int D = Tr::D;
+  static constexpr bool moving = true;
+  using T = typename Tr::T;
+  T* own_v[D] = {};  // velocity and acceleration of the body there
+  T* own_a[D] = {};
+  T* place[D] = {};  // x, n of WallView, to be written
+  T* direction[D] = {};
+  const T* arm[D] = {};  // relative to the pivot at pitch 0
+  const T* own_normal[D] = {};
+  const int* body = nullptr;
+  int* key = nullptr;
 };
 
 }  // namespace lgiw

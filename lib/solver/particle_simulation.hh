@@ -77,19 +77,21 @@ class ParticleSimulation final : public Simulation {
     Array<T> t;
     Array<P> p;
     Array<unsigned> id;
-    Array<int> order;
+    Array<int> number, order;
     template <class U>
     Array<U>& of(const Array<U>&) {
       if constexpr (std::is_same_v<U, T>)
         return t;
       else if constexpr (std::is_same_v<U, P>)
         return p;
+      else if constexpr (std::is_same_v<U, int>)
+        return number;
       else
         return id;
     }
     template <class F>
     void all(F&& f) {
-      f(t, ""), f(p, ""), f(id, ""), f(order, "");
+      f(t, ""), f(p, ""), f(id, ""), f(number, ""), f(order, "");
     }
   };
   struct Water {
@@ -154,6 +156,36 @@ class ParticleSimulation final : public Simulation {
       f(id, "id"), f(start, "cell starts");
     }
   };
+  /// Particles of the bodies that move as prescribed; few, and sorted anew in every step.
+  struct Bodies {
+    Spare spare;
+    Array<T> x[D], v[D], a[D], arm[D], normal[D], own_normal[D], weight, slip, term, excess, image_v[D], stress[S];
+    Array<int> body;
+    Array<unsigned> id;
+    Array<int> key, start;
+    Array<MotionRow> rows;
+    Array<int> first_row;
+    Array<double> pivot, ahead;
+    Array<RigidState> now;
+    template <class F>
+    void carried(F&& f) {
+      for (auto& q : x) f(q, "position");
+      for (auto& q : v) f(q, "velocity");
+      for (auto& q : a) f(q, "acceleration");
+      for (auto& q : arm) f(q, "arm");
+      for (auto& q : normal) f(q, "normal");
+      for (auto& q : own_normal) f(q, "normal at pitch 0");
+      f(weight, "volume"), f(slip, "slip"), f(body, "body"), f(id, "id");
+    }
+    template <class F>
+    void scratch(F&& f) {
+      f(term, "image pressure"), f(excess, "image density");
+      for (auto& q : image_v) f(q, "image velocity");
+      for (auto& q : stress) f(q, "image stress");
+      f(key, "cell"), f(start, "cell starts"), f(rows, "motion"), f(first_row, "first rows");
+      f(pivot, "pivots"), f(ahead, "directions"), f(now, "places");
+    }
+  };
 
  public:
   ParticleSimulation(const ModelParameters& m, const InitialParticles& in, NumberType type, Backend backend = {})
@@ -162,13 +194,14 @@ class ParticleSimulation final : public Simulation {
         type_(type),
         n_water_(int(in.n_water())),
         n_soil_(int(in.n_soil())),
-        n_wall_(int(in.n_wall())),
+        n_wall_(int(in.n_wall()) - in.n_moving()),
+        n_bodies_(in.n_moving()),
         p_(m, n_water_ > 0, n_soil_ > 0) {
     double low[D], high[D];
     for (int k = 0; k < D; ++k) low[k] = p_.low[k], high[k] = p_.high[k];
-    for (int i = 0; i < n_wall_; ++i)  // the grid holds the walls, which reach beyond the domain
+    for (std::size_t i = 0; i < in.n_wall(); ++i)  // the grid holds the walls, which reach beyond the domain
       for (int k = 0; k < D; ++k) {
-        const double x = in.wall_x[3 * std::size_t(i) + axis(k)];
+        const double x = in.wall_x[3 * i + axis(k)];
         low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
       }
     grid_ = Grid<T, D>(low, high, 2 * m.h * (1 + 1e-6));
@@ -181,6 +214,7 @@ class ParticleSimulation final : public Simulation {
     if (n_water_) fill_water(in);
     if (n_soil_) fill_soil(in);
     if (n_wall_) fill_wall(in);
+    if (n_bodies_) fill_bodies(in), move_bodies(false);
     sort_phases();
     evaluate();
     finish(false);
@@ -218,6 +252,7 @@ class ParticleSimulation final : public Simulation {
     for (auto& q : soil_.v_previous) backend_.zero(q);
     if (n_water_ && p_.verlet) copy(water_.excess_previous, water_.excess);
     for (int c = 0; c < S && n_soil_ && p_.verlet; ++c) copy(soil_.stress_previous[c], soil_.stress[c]);
+    if (n_bodies_) move_bodies(false), sort_phase(bodies_);
     evaluate();
     finish(false);
   }
@@ -243,16 +278,35 @@ class ParticleSimulation final : public Simulation {
   }
   void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const override {
     pressure.clear(), stress.clear();
-    if (!n_wall_) return;
-    const auto id = host(wall_.id);
-    if (n_water_) {
-      const auto term = by_id<double>(host(wall_.term), id), excess = by_id<double>(host(wall_.excess), id);
-      for (std::size_t i = 0; i < term.size(); ++i) {
-        const double rho = model_.water_density + excess[i];
-        pressure.push_back(float(term[i] * rho * rho));
+    const std::size_t n = std::size_t(n_wall_) + n_bodies_;
+    if (n_water_) pressure.assign(n, 0.f);
+    if (n_soil_) stress.assign(6 * n, 0.f);
+    const auto collect = [&](const auto& walls, int count) {
+      if (!count) return;
+      const auto id = host(walls.id);
+      if (n_water_) {
+        const auto term = host(walls.term), excess = host(walls.excess);
+        for (int i = 0; i < count; ++i) {
+          const double rho = model_.water_density + double(excess[i]);
+          pressure[id[i]] = float(double(term[i]) * rho * rho);
+        }
       }
+      for (int c = 0; c < S && n_soil_; ++c) {
+        const auto values = host(walls.stress[c]);
+        for (int i = 0; i < count; ++i) stress[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
+      }
+    };
+    collect(wall_, n_wall_), collect(bodies_, n_bodies_);
+  }
+  void download_bodies(std::vector<double>& x, std::vector<unsigned>& wall_id) const override {
+    x.clear(), wall_id.clear();
+    if (!n_bodies_) return;
+    wall_id = host(bodies_.id);
+    x.assign(3 * wall_id.size(), 0.0);
+    for (int k = 0; k < D; ++k) {
+      const auto values = host(bodies_.x[k]);
+      for (std::size_t i = 0; i < wall_id.size(); ++i) x[3 * i + axis(k)] = double(values[i]);
     }
-    if (n_soil_) stress = stresses(wall_.stress, id);
   }
   void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const override {
     if (n_water_) forces(water, water_.a, host(water_.id), double(p_.water_mass));
@@ -298,8 +352,8 @@ class ParticleSimulation final : public Simulation {
     auto add = [&](const auto& q, const char*) { sum += int64_t(q.size() * sizeof(*q.data())); };
     auto& self = const_cast<ParticleSimulation&>(*this);
     self.water_.carried(add), self.water_.scratch(add), self.soil_.carried(add), self.soil_.scratch(add),
-        self.wall_.all(add);
-    self.water_.spare.all(add), self.soil_.spare.all(add);
+        self.wall_.all(add), self.bodies_.carried(add), self.bodies_.scratch(add);
+    self.water_.spare.all(add), self.soil_.spare.all(add), self.bodies_.spare.all(add);
     return sum;
   }
   std::string description() const override {
@@ -370,41 +424,90 @@ class ParticleSimulation final : public Simulation {
     }
     set_keys(pass<SetKeys<Tr, SoilView<Tr>>>(), soil_view(), n_soil_);
   }
-  void fill_wall(const InitialParticles& in) {
-    const std::size_t n = n_wall_;
-    // Walls never move: they are sorted here, once, on the host.
-    std::vector<int> key(n), order(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      Vec<T, D> x;
-      for (int k = 0; k < D; ++k) x.c[k] = T(in.wall_x[3 * i + axis(k)]);
-      key[i] = grid_.cell(x);
-      order[i] = int(i);
-    }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
-    std::vector<int> start(grid_.cells + 1, 0);
-    for (int k : key) ++start[k + 1];
-    for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
-    put(wall_.start, start);
+  /// Indices in the particles file of the wall particles that stand still, or that move.
+  static std::vector<unsigned> wall_ids(const InitialParticles& in, bool moving) {
+    std::vector<unsigned> out;
+    for (std::size_t i = 0; i < in.n_wall(); ++i)
+      if ((!in.wall_body.empty() && in.wall_body[i] > 0) == moving) out.push_back(unsigned(i));
+    return out;
+  }
+  /// What walls and bodies have in common, in the order of `id`.
+  template <class Walls>
+  void fill_common(const InitialParticles& in, const std::vector<unsigned>& id, Walls& walls, Array<T>* image_v) {
+    const std::size_t n = id.size();
     std::vector<T> value(n);
-    std::vector<unsigned> id(n);
     for (int k = 0; k < D; ++k) {
-      for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_x[3 * std::size_t(order[i]) + axis(k)]);
-      put(wall_.x[k], value);
+      for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_x[3 * std::size_t(id[i]) + axis(k)]);
+      put(walls.x[k], value);
     }
-    for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[order[i]] / double(p_.volume)), id[i] = order[i];
-    put(wall_.weight, value), put(wall_.id, id);
-    if (n_water_) wall_.term = zeros<T>(n), wall_.excess = zeros<T>(n);
+    for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[id[i]] / double(p_.volume));
+    put(walls.weight, value), put(walls.id, id);
+    if (n_water_) walls.term = zeros<T>(n), walls.excess = zeros<T>(n);
     if (n_soil_) {
       for (std::size_t i = 0; i < n; ++i)
-        value[i] = (in.wall_kind[order[i]] == 0 ? model_.free_slip_bed : model_.free_slip_sides) ? T(1) : T(0);
-      put(wall_.slip, value);
+        value[i] = (in.wall_kind[id[i]] == 1 ? model_.free_slip_sides : model_.free_slip_bed) ? T(1) : T(0);
+      put(walls.slip, value);
       for (int k = 0; k < D; ++k) {
-        for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(order[i]) + axis(k)]);
-        put(wall_.normal[k], value);
-        wall_.v[k] = zeros<T>(n);
+        for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
+        put(walls.normal[k], value);
+        image_v[k] = zeros<T>(n);
       }
-      for (auto& q : wall_.stress) q = zeros<T>(n);
+      for (auto& q : walls.stress) q = zeros<T>(n);
     }
+  }
+  void fill_wall(const InitialParticles& in) {
+    // These never move: they are sorted here, once, on the host.
+    std::vector<unsigned> id = wall_ids(in, false);
+    std::vector<int> key(in.n_wall());
+    for (unsigned i : id) {
+      Vec<T, D> x;
+      for (int k = 0; k < D; ++k) x.c[k] = T(in.wall_x[3 * std::size_t(i) + axis(k)]);
+      key[i] = grid_.cell(x);
+    }
+    std::stable_sort(id.begin(), id.end(), [&](unsigned a, unsigned b) { return key[a] < key[b]; });
+    std::vector<int> start(grid_.cells + 1, 0);
+    for (unsigned i : id) ++start[key[i] + 1];
+    for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
+    put(wall_.start, start);
+    fill_common(in, id, wall_, wall_.v);
+  }
+  void fill_bodies(const InitialParticles& in) {
+    const std::vector<unsigned> id = wall_ids(in, true);
+    const std::size_t n = id.size(), bodies = model_.bodies.size();
+    fill_common(in, id, bodies_, bodies_.image_v);
+    std::vector<int> body(n), first{0};
+    std::vector<MotionRow> rows;
+    std::vector<double> pivot, ahead;
+    for (const PrescribedMotion& motion : model_.bodies) {
+      rows.insert(rows.end(), motion.rows.begin(), motion.rows.end());
+      first.push_back(int(rows.size()));
+      pivot.insert(pivot.end(), motion.pivot.begin(), motion.pivot.end());
+      ahead.insert(ahead.end(), motion.ahead.begin(), motion.ahead.end());
+    }
+    for (std::size_t i = 0; i < n; ++i) body[i] = in.wall_body[id[i]] - 1;
+    std::vector<T> value(n);
+    for (int k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < n; ++i)
+        value[i] = T(in.wall_x[3 * std::size_t(id[i]) + axis(k)] - model_.bodies[body[i]].pivot[axis(k)]);
+      put(bodies_.arm[k], value);
+      bodies_.v[k] = zeros<T>(n), bodies_.a[k] = zeros<T>(n);
+      if (n_soil_) put(bodies_.own_normal[k], host(bodies_.normal[k]));
+    }
+    put(bodies_.body, body), put(bodies_.rows, rows), put(bodies_.first_row, first);
+    put(bodies_.pivot, pivot), put(bodies_.ahead, ahead);
+    bodies_.now = Array<RigidState>(2 * bodies);
+    bodies_.key = zeros<int>(n), bodies_.start = zeros<int>(grid_.cells + 1);
+  }
+  /// Bodies to the end of the step, or (`on` false) to the time of the state.
+  void move_bodies(bool on) {
+    auto states = pass<BodyStates<Tr>>();
+    states.rows = bodies_.rows.data(), states.first = bodies_.first_row.data();
+    states.pivots = bodies_.pivot.data(), states.now = bodies_.now.data();
+    states.n_bodies = int(model_.bodies.size()), states.moving_on = on;
+    backend_.single(states);
+    auto motion = pass<BodyMotion<Tr>>();
+    motion.now = bodies_.now.data(), motion.ahead = bodies_.ahead.data(), motion.moving_on = on;
+    backend_.for_each(n_bodies_, motion);
   }
 
   // One step. Leapfrog moves first and takes the rates at the new place; Verlet takes all rates where the forces are.
@@ -434,10 +537,12 @@ class ParticleSimulation final : public Simulation {
         f.lost = &state_.data()->lost_soil, f.failed = &state_.data()->failed_soil;
         backend_.for_each(n_soil_, f);
       });
+    if (n_bodies_) timed("motion", [&] { move_bodies(true); });
     timed("sort", [&] { sort_phases(); });
   }
   void rates() {
-    if (n_soil_ && n_wall_) run<WallVelocities<Tr>>("images", n_wall_);
+    if (n_soil_ && n_wall_) run<WallVelocities<Tr, false>>("images", n_wall_);
+    if (n_soil_ && n_bodies_) run<WallVelocities<Tr, true>>("images", n_bodies_);
     if (n_water_)
       timed("water rates", [&] {
         WaterRates<Tr> f;
@@ -453,7 +558,8 @@ class ParticleSimulation final : public Simulation {
   }
   /// Images and forces for the present positions, velocities, densities and stresses.
   void evaluate() {
-    if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr>>("images", n_wall_);
+    if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr, false>>("images", n_wall_);
+    if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", n_bodies_);
     if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", n_soil_);
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
@@ -469,9 +575,17 @@ class ParticleSimulation final : public Simulation {
   void sort_phases() {
     if (n_water_) sort_phase(water_);
     if (n_soil_) sort_phase(soil_);
+    if (n_bodies_) sort_phase(bodies_);
   }
+  void sort_phase(Bodies& bodies) { sort_particles(bodies); }
   template <class Phase>
   void sort_phase(Phase& phase) {
+    sort_particles(phase);
+    if constexpr (two_positions)
+      for (int k = 0; k < D; ++k) convert(phase.x[k], phase.position[k]);
+  }
+  template <class Phase>
+  void sort_particles(Phase& phase) {
     Spare& spare = phase.spare;
     if (spare.order.size() != phase.key.size()) spare.order = Array<int>(phase.key.size());
     backend_.sort_by_cell(phase.key, grid_.cells, spare.order, phase.start);
@@ -482,8 +596,6 @@ class ParticleSimulation final : public Simulation {
       backend_.gather(to, q, spare.order);
       q.swap(to);
     });
-    if constexpr (two_positions)
-      for (int k = 0; k < D; ++k) convert(phase.x[k], phase.position[k]);
   }
 
   // Plumbing.
@@ -556,6 +668,7 @@ class ParticleSimulation final : public Simulation {
     f.water = water_view();
     f.soil = soil_view();
     f.wall = wall_view();
+    f.bodies = body_view();
     f.state = state_.data();
   }
   WaterView<Tr> water_view() const {
@@ -604,6 +717,23 @@ class ParticleSimulation final : public Simulation {
     for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
     b.start = wall_.start.data(), b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
     b.term = wall_.term.data(), b.excess = wall_.excess.data(), b.id = wall_.id.data();
+    return b;
+  }
+
+  BodyView<Tr> body_view() const {
+    BodyView<Tr> b;
+    b.n = n_bodies_;
+    if (!b.n) return b;
+    const Bodies& m = bodies_;
+    for (int k = 0; k < D; ++k) {
+      b.x[k] = b.place[k] = m.x[k].data(), b.normal[k] = b.direction[k] = m.normal[k].data();
+      b.v[k] = m.image_v[k].data(), b.own_v[k] = m.v[k].data(), b.own_a[k] = m.a[k].data();
+      b.arm[k] = m.arm[k].data(), b.own_normal[k] = m.own_normal[k].data();
+    }
+    for (int c = 0; c < S; ++c) b.stress[c] = m.stress[c].data();
+    b.start = m.start.data(), b.weight = m.weight.data(), b.slip = m.slip.data();
+    b.term = m.term.data(), b.excess = m.excess.data(), b.id = m.id.data();
+    b.body = m.body.data(), b.key = m.key.data();
     return b;
   }
 
@@ -667,17 +797,22 @@ class ParticleSimulation final : public Simulation {
     for (auto& q : soil_.a)
       if (q.size()) f(q, "soil acceleration");
     if (n_soil_) f(soil_.start, "soil cell starts");
+    bodies_.carried([&](auto& q, const char* name) {
+      if (q.size()) f(q, std::string("body ") + name);
+    });
+    if (n_bodies_) f(bodies_.start, "body cell starts");
   }
 
   mutable Backend backend_;
   ModelParameters model_;
   NumberType type_;
-  int n_water_, n_soil_, n_wall_;
+  int n_water_, n_soil_, n_wall_, n_bodies_;  // n_wall_: those that stand still; n_bodies_: those that move
   Parameters<Tr> p_;
   Grid<T, D> grid_;
   Water water_;
   Soil soil_;
   Wall wall_;
+  Bodies bodies_;
   Array<StepState> state_;
   Array<Limits<T>> limits_;
   std::map<std::string, double> times_;
@@ -711,6 +846,7 @@ std::vector<std::string> ParticleSimulation<Backend, Tr>::left_out() const {
     out.push_back("interface repulsion: its part of the pair loop");
   if (n_soil_ && !p_.coulomb_bed) out.push_back("Coulomb friction limit at the bed");
   if (!n_wall_) out.push_back("walls");
+  if (!n_bodies_) out.push_back("moving bodies");
   return out;
 }
 

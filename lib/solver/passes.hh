@@ -32,6 +32,7 @@ struct Pass {
   WaterView<Tr> water;
   SoilView<Tr> soil;
   WallView<Tr> wall;
+  BodyView<Tr> bodies;
   const StepState* state;
 
   template <class View>
@@ -47,6 +48,14 @@ struct Pass {
   }
   static LGIW_FN void store(T* const* a, int i, const V& v) {
     for (int k = 0; k < D; ++k) a[k][i] = v.c[k];
+  }
+  /// Velocity relative to wall particle j.
+  template <class Walls>
+  static LGIW_FN V relative(const V& v, const Walls& b, int j) {
+    if constexpr (Walls::moving)
+      return v - load(b.own_v, j);
+    else
+      return v;
   }
   static LGIW_FN Stress<T, D> load_stress(const T* const* a, int i) {
     Stress<T, D> r;
@@ -72,6 +81,14 @@ struct Pass {
         f(j, r, r2);
       }
     }
+  }
+
+  template <bool of_bodies>
+  LGIW_FN const auto& walls() const {
+    if constexpr (of_bodies)
+      return bodies;
+    else
+      return wall;
   }
 
   /// True once the target time is reached or a particle has failed: what a device still has queued then changes
@@ -199,6 +216,80 @@ struct Motion : Pass<Tr> {
   }
 };
 
+/// Where the bodies are at the end of a step, once a step. Rates use the velocity with which the particles move
+/// meanwhile: that of the middle of the step with leapfrog, that of its end with Verlet. Bodies wait while the scene
+/// settles.
+template <class Tr>
+struct BodyStates : Pass<Tr> {
+  const MotionRow* rows;
+  const int* first;      // [bodies + 1]: rows of each
+  const double* pivots;  // [bodies][3]
+  RigidState* now;       // [bodies][2]: at the end of the step, and at the time of the velocity
+  int n_bodies;
+  bool moving_on;  // false: at the time of the state itself
+
+  LGIW_FN void operator()(int) const {
+    const StepState& st = *this->state;
+    if (moving_on && this->idle()) return;
+    const double end = st.settling ? 0 : st.time + (moving_on ? st.dt : 0);
+    const double middle = moving_on && !st.settling && !this->parameters.verlet ? st.time + 0.5 * st.dt : end;
+    for (int b = 0; b < n_bodies; ++b) {
+      const MotionRow* table = rows + first[b];
+      const int n = first[b + 1] - first[b];
+      now[2 * b] = rigid_state(table, n, pivots + 3 * b, end);
+      now[2 * b + 1] = rigid_state(table, n, pivots + 3 * b, middle);
+      for (int k = 0; k < 2 && st.settling; ++k) stop(now[2 * b + k]);
+    }
+  }
+  static LGIW_FN void stop(RigidState& s) {
+    for (int k = 0; k < 3; ++k) s.velocity[k] = s.acceleration[k] = 0;
+    s.spin = s.spin_rate = 0;
+  }
+};
+
+/// Places the particles of the bodies.
+template <class Tr>
+struct BodyMotion : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  static constexpr int D = Tr::D;
+  const RigidState* now;
+  const double* ahead;  // [bodies][2]
+  bool moving_on;
+
+  LGIW_FN void operator()(int i) const {
+    if (moving_on && this->idle()) return;
+    const auto& b = this->bodies;
+    const int body = b.body[i];
+    const RigidState &end = now[2 * body], &middle = now[2 * body + 1];
+    const double ahead_x = ahead[2 * body], ahead_y = ahead[2 * body + 1];
+    double arm[3] = {0, 0, 0}, normal[3] = {0, 0, 0}, place[3], velocity[3], acceleration[3], direction[3], unused[3];
+    for (int k = 0; k < D; ++k) arm[axis(k)] = double(b.arm[k][i]);
+    rigid_point(middle, ahead_x, ahead_y, arm, place, velocity, unused);
+    rigid_point(end, ahead_x, ahead_y, arm, place, unused, acceleration);
+    Vec<T, D> x;
+    for (int k = 0; k < D; ++k) {
+      x.c[k] = b.place[k][i] = T(place[axis(k)]);
+      b.own_v[k][i] = T(velocity[axis(k)]);
+      b.own_a[k][i] = T(acceleration[axis(k)]);
+    }
+    if (this->soil.n) {
+      for (int k = 0; k < D; ++k) normal[axis(k)] = double(b.own_normal[k][i]);
+      rigid_direction(end, ahead_x, ahead_y, normal, direction);
+      for (int k = 0; k < D; ++k) b.direction[k][i] = T(direction[axis(k)]);
+    }
+    b.key[i] = inside(place) ? this->grid.cell(x) : this->grid.cells;  // beyond the grid nothing is near it
+  }
+  static LGIW_FN int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
+  LGIW_FN bool inside(const double* place) const {
+    for (int k = 0; k < D; ++k) {
+      const double cell = (place[axis(k)] - this->grid.low[k]) * this->grid.inverse_width;
+      if (!(cell >= 1 && cell < this->grid.n[k] - 1)) return false;
+    }
+    return true;
+  }
+};
+
 // ---------------------------------------------------------------------------------------------------------------------
 // Rates: density of water, stress of soil
 
@@ -230,6 +321,16 @@ struct WaterRates : Pass<Tr> {
     return rate;
   }
 
+  template <class Walls>
+  LGIW_FN T over_walls(const Walls& b, int cell, const V& x, const V& v) const {
+    const auto& p = this->parameters;
+    T rate = 0;
+    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
+      rate += b.weight[j] * p.continuity(r, B::relative(v, b, j), p.kernel.gradient(square_root(r2)));
+    });
+    return rate;
+  }
+
   LGIW_FN void operator()(int i) const {
     const auto& p = this->parameters;
     const auto& w = this->water;
@@ -240,11 +341,8 @@ struct WaterRates : Pass<Tr> {
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
-    if (this->wall.n) {
-      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
-        rate += this->wall.weight[j] * p.continuity(r, v, p.kernel.gradient(square_root(r2)));
-      });
-    }
+    if (this->wall.n) rate += over_walls(this->wall, cell, x, v);
+    if (this->bodies.n) rate += over_walls(this->bodies, cell, x, v);
     if (this->soil.n) {
       T sum = 0;
       this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
@@ -273,9 +371,9 @@ struct WaterRates : Pass<Tr> {
   }
 };
 
-/// Velocity images at the walls for the soil's velocity gradient: -v_mean on rough walls, the mirror image on slipping
-/// ones.
-template <class Tr>
+/// Velocity images at the walls, or at the bodies, for the soil's velocity gradient: 2 v_wall - v_mean on rough walls,
+/// the mirror image on slipping ones.
+template <class Tr, bool of_bodies>
 struct WallVelocities : Pass<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
@@ -284,7 +382,7 @@ struct WallVelocities : Pass<Tr> {
 
   LGIW_FN void operator()(int i) const {
     const auto& s = this->soil;
-    const auto& b = this->wall;
+    const auto& b = B::template walls<of_bodies>();
     const int cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
     V sum{};
@@ -296,10 +394,11 @@ struct WallVelocities : Pass<Tr> {
     });
     V image{};
     if (weight > 0) {
-      const V mean = (1 / weight) * sum, n = B::load(b.normal, i);
+      const V mean = B::relative((1 / weight) * sum, b, i), n = B::load(b.normal, i);
       const T slip = b.slip[i], normal = dot(mean, n);
-      // slip 0: -mean; slip 1: mean - 2 (mean.n) n
+      // slip 0: -mean; slip 1: mean - 2 (mean.n) n; both relative to the wall
       for (int k = 0; k < D; ++k) image.c[k] = (2 * slip - 1) * mean.c[k] - 2 * slip * normal * n.c[k];
+      if constexpr (of_bodies) add_scaled(image, T(1), B::load(b.own_v, i));
     }
     B::store(b.v, i, image);
   }
@@ -330,6 +429,16 @@ struct SoilRates : Pass<Tr> {
     });
   }
 
+  template <class Walls>
+  LGIW_FN void over_walls(const Walls& walls, int cell, const V& x, const V& v, T* l) const {
+    this->for_each_near(walls, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ji = B::load(walls.v, j) - v;
+      const T f = walls.weight[j] * this->parameters.kernel.gradient(square_root(r2));
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+    });
+  }
+
   LGIW_FN void operator()(int i) const {
     const auto& p = this->parameters;
     const auto& s = this->soil;
@@ -350,14 +459,8 @@ struct SoilRates : Pass<Tr> {
       over_soil<true>(cell, x, v, sigma, pore > 0 ? p.static_stress_wet : p.static_stress_dry, l, smoothing);
     else
       over_soil<false>(cell, x, v, sigma, p.static_stress_dry, l, smoothing);
-    if (this->wall.n) {
-      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
-        const V v_ji = B::load(this->wall.v, j) - v;
-        const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
-        for (int a = 0; a < D; ++a)
-          for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
-      });
-    }
+    if (this->wall.n) over_walls(this->wall, cell, x, v, l);
+    if (this->bodies.n) over_walls(this->bodies, cell, x, v, l);
     for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
     const bool euler = !p.verlet || st.euler_countdown == 0;
     const T dt = T(euler ? st.dt : st.dt + st.dt_previous);
@@ -382,7 +485,8 @@ struct SoilRates : Pass<Tr> {
 // ---------------------------------------------------------------------------------------------------------------------
 // Images: the state of a phase seen where the other phase or a wall is (Adami et al. 2012; physics.md sections 7, 8)
 
-/// Pressure of the surrounding water at x: sum V (p + rho g.(x - x_w)) W / sum V W; 0 where there is none.
+/// Pressure of the surrounding water at x: sum V (p + rho g.(x - x_w)) W / sum V W; 0 where there is none. g is gravity
+/// less the acceleration of the wall there (Adami et al. 2012, Eq. 27).
 template <class Tr>
 struct WaterImage : Pass<Tr> {
   using B = Pass<Tr>;
@@ -390,7 +494,7 @@ struct WaterImage : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
-  LGIW_FN T pressure(int cell, const V& x, bool with_gravity) const {
+  LGIW_FN T pressure(int cell, const V& x, const V& g) const {
     const auto& w = this->water;
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
@@ -403,12 +507,12 @@ struct WaterImage : Pass<Tr> {
       add_scaled(moment, kernel, r);    // V rho = m
     });
     if (!(weight > 0)) return 0;
-    return (sum + (with_gravity ? dot(p.gravity, moment) : T(0))) / weight;
+    return (sum + dot(g, moment)) / weight;
   }
 };
 
-/// Water pressure and soil stress at a wall particle.
-template <class Tr>
+/// Water pressure and soil stress at a particle of a wall or body.
+template <class Tr, bool of_bodies>
 struct WallImages : WaterImage<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
@@ -417,11 +521,13 @@ struct WallImages : WaterImage<Tr> {
 
   LGIW_FN void operator()(int i) const {
     const auto& p = this->parameters;
-    const auto& b = this->wall;
+    const auto& b = B::template walls<of_bodies>();
     const int cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
     if (this->water.n) {
-      const T pressure = this->pressure(cell, x, true);
+      V g = p.gravity;
+      if constexpr (of_bodies) add_scaled(g, T(-1), B::load(b.own_a, i));
+      const T pressure = this->pressure(cell, x, g);
       const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
       b.excess[i] = excess;
       b.term[i] = pressure / (rho * rho);
@@ -444,7 +550,8 @@ struct WallImages : WaterImage<Tr> {
     if (!(weight > 0)) return sum;
     const Stress<T, D>& at_rest = this->pore_pressure(x.c[D - 1]) > 0 ? p.static_stress_wet : p.static_stress_dry;
     for (int c = 0; c < S; ++c) sum.c[c] = (sum.c[c] - moment * at_rest.c[c]) / weight;
-    return this->wall.slip[i] > 0 ? reflect(sum, B::load(this->wall.normal, i)) : sum;
+    const auto& b = B::template walls<of_bodies>();
+    return b.slip[i] > 0 ? reflect(sum, B::load(b.normal, i)) : sum;
   }
 };
 
@@ -453,12 +560,16 @@ template <class Tr>
 struct SoilImages : WaterImage<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
+  using V = typename B::V;
 
   LGIW_FN void operator()(int i) const {
     const auto& s = this->soil;
     const auto& p = this->parameters;
     T pressure = 0;
-    if (i < s.start[this->grid.cells]) pressure = this->pressure(this->cell_of(s, i), B::load(s.x, i), p.image_gravity);
+    if (i < s.start[this->grid.cells]) {
+      const V g = p.image_gravity ? p.gravity : V{};
+      pressure = this->pressure(this->cell_of(s, i), B::load(s.x, i), g);
+    }
     const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
     s.image_excess[i] = excess;
     s.image_term[i] = pressure / (rho * rho);
@@ -487,6 +598,17 @@ struct WaterForces : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
+  template <class Walls>
+  LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
+    const auto& p = this->parameters;
+    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
+      const T mu = p.water_viscosity.mu(dot(B::relative(v, b, j), r), r2);
+      const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
+      const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
+      add_scaled(a, -(term_i + b.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
+    });
+  }
+
   LGIW_FN Limits<T> operator()(int i) const {
     const auto& p = this->parameters;
     const auto& w = this->water;
@@ -503,14 +625,8 @@ struct WaterForces : Pass<Tr> {
       mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
       add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
     });
-    if (this->wall.n) {
-      this->for_each_near(this->wall, cell, x, [&](int j, const V& r, T r2) {
-        const T mu = p.water_viscosity.mu(dot(v, r), r2);
-        const T f = this->wall.weight[j] * p.kernel.gradient(square_root(r2));
-        const T rho_mean = T(0.5) * (rho_i + rho0 + this->wall.excess[j]);
-        add_scaled(a, -(term_i + this->wall.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
-      });
-    }
+    if (this->wall.n) over_walls(this->wall, cell, x, v, term_i, rho_i, a);
+    if (this->bodies.n) over_walls(this->bodies, cell, x, v, term_i, rho_i, a);
     a = p.water_mass * a;
     if (this->soil.n) {
       this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
@@ -576,7 +692,7 @@ struct SoilForces : Pass<Tr> {
       over_soil<true>(i, cell, x, v, sigma, a, mu_max);
     else
       over_soil<false>(i, cell, x, v, sigma, a, mu_max);
-    if (this->wall.n) over_walls(cell, x, v, sigma, a);
+    if (this->wall.n || this->bodies.n) over_walls(cell, x, v, sigma, a);
     a = p.soil_mass * a;
     if (this->water.n) {
       const auto& w = this->water;
@@ -598,47 +714,59 @@ struct SoilForces : Pass<Tr> {
     return {dot(a, a), mu_max};
   }
 
-  /// Adds the walls' part (per unit of soil mass) to a: physics.md section 8.
-  LGIW_FN void over_walls(int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a) const {
+  /// Forces of walls per unit of soil mass, and where they lie: sums of the weighted kernel gradient.
+  struct WallForce {
+    V bed, slipping, into_wall;
+  };
+  template <class Walls>
+  LGIW_FN void of_walls(const Walls& b, int cell, const V& x, const V& v, const Stress<T, D>& sigma,
+                        WallForce& sum) const {
     const auto& p = this->parameters;
-    const auto& b = this->wall;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const T viscosity_on = p.wall_viscosity ? T(1) : T(0);
-    V bed{}, slipping{}, into_wall{};
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
-      const V n = B::load(b.normal, j);
+      const V n = B::load(b.normal, j), v_ib = B::relative(v, b, j);
       const T slip = b.slip[j];
       // A slipping wall resists approach only.
-      const T vr = (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
+      const T vr = (1 - slip) * dot(v_ib, r) + slip * dot(v_ib, n) * dot(n, r);
       const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
       const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
-      Stress<T, D> sum;
-      for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
-      V force = f * apply(sum, r);
+      Stress<T, D> stress;
+      for (int c = 0; c < S; ++c) stress.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
+      V force = f * apply(stress, r);
       add_scaled(force, -f * viscous, r);
       if constexpr (coulomb) {
-        add_scaled(bed, 1 - slip, force);
-        add_scaled(slipping, slip, force);
-        add_scaled(into_wall, (1 - slip) * f, r);
+        add_scaled(sum.bed, 1 - slip, force);
+        add_scaled(sum.slipping, slip, force);
+        add_scaled(sum.into_wall, (1 - slip) * f, r);
       } else {
-        add_scaled(bed, T(1), force);
+        add_scaled(sum.bed, T(1), force);
       }
     });
+  }
+
+  /// Adds the walls' and bodies' part (per unit of soil mass) to a: physics.md section 8.
+  LGIW_FN void over_walls(int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a) const {
+    WallForce sum{};
+    if (this->wall.n) of_walls(this->wall, cell, x, v, sigma, sum);
+    if (this->bodies.n) of_walls(this->bodies, cell, x, v, sigma, sum);
+    V bed = sum.bed;
     if constexpr (coulomb) {
-      const T length2 = dot(into_wall, into_wall);
+      const T length2 = dot(sum.into_wall, sum.into_wall);
       if (length2 > 0) {
-        const V n = (-1 / square_root(length2)) * into_wall;
+        const V n = (-1 / square_root(length2)) * sum.into_wall;
         const T normal = dot(bed, n);
         V tangential = bed;
         add_scaled(tangential, -normal, n);
-        const T size = square_root(dot(tangential, tangential)), limit = p.bed_friction * largest(T(0), normal);
+        const T size = square_root(dot(tangential, tangential));
+        const T limit = this->parameters.bed_friction * largest(T(0), normal);
         if (size > limit) {
           tangential = (limit / size) * tangential;
           bed = normal * n;
           add_scaled(bed, T(1), tangential);
         }
       }
-      add_scaled(bed, T(1), slipping);
+      add_scaled(bed, T(1), sum.slipping);
     }
     add_scaled(a, T(1), bed);
   }

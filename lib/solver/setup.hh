@@ -6,7 +6,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "physics/rigid_motion.hh"
+
 namespace lgiw {
+
+/// A rigid body that moves as prescribed.
+struct PrescribedMotion {
+  std::array<double, 3> pivot{};         // m, at t = 0
+  std::array<double, 2> ahead{1, 0};     // unit vector in plan: a positive pitch lowers this side
+  std::vector<MotionRow> rows;           // at least one
+};
 
 /// The model of a case in numbers, SI units, angles in radians. make_setup() fills it from a case.
 struct ModelParameters {
@@ -39,6 +48,7 @@ struct ModelParameters {
   double settle_rate = 0, soil_settle_rate = 0;    // 1/s: damping of water and soil while settling
   double settle_time = 0;                          // s
   bool settle_soil = false;
+  std::vector<PrescribedMotion> bodies;
 };
 
 /// Particles in the order of the particles file; all [n] or [n][...] row by row.
@@ -48,10 +58,17 @@ struct InitialParticles {
   std::vector<float> soil_stress;               // [n,6] xx yy zz xy yz xz
   std::vector<float> wall_normal, wall_volume;  // [n,3], [n]
   std::vector<uint8_t> wall_kind;
+  std::vector<uint8_t> wall_body;      // [n]: 0 stands still, k moves with ModelParameters::bodies[k-1]; empty: all 0
   std::vector<float> water_v, soil_v;  // [n,3], or empty: at rest
   std::size_t n_water() const { return water_x.size() / 3; }
   std::size_t n_soil() const { return soil_x.size() / 3; }
   std::size_t n_wall() const { return wall_x.size() / 3; }
+  /// Wall particles of moving bodies.
+  int n_moving() const {
+    int n = 0;
+    for (uint8_t b : wall_body) n += b > 0;
+    return n;
+  }
 };
 
 }  // namespace lgiw

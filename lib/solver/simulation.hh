@@ -61,6 +61,8 @@ class Simulation {
   virtual void download(ParticleState& out) const = 0;
   /// Pressure (Pa) and, with soil, the image stress at the wall particles, in the order of the particles file.
   virtual void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const = 0;
+  /// Where the wall particles of moving bodies are, [n,3], and their indices among the wall particles, [n].
+  virtual void download_bodies(std::vector<double>& x, std::vector<unsigned>& wall_id) const = 0;
   /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3].
   virtual void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const = 0;
   virtual std::vector<RawArray> save() const = 0;

@@ -9,13 +9,31 @@ namespace lgiw::test {
 
 struct CloudOptions {
   int dimension = 2;
-  bool walls = true, cubic = false, paper = false, gravity = true, pore = true;
+  bool walls = true, cubic = false, paper = false, gravity = true, pore = true, bodies = false;
 };
 
 struct Cloud {
   ModelParameters p;
   InitialParticles in;
 };
+
+/// Constant linear and angular acceleration: displacement (m) and pitch (rad) at time t.
+inline std::array<double, 4> body_motion(double t) {
+  return {0.3 * t + 0.8 * t * t, 0, -0.2 * t + 1.1 * t * t, 0.5 * t - 0.9 * t * t};
+}
+inline PrescribedMotion motion_of_the_body(int dimension) {
+  PrescribedMotion m;
+  m.pivot = {1.0, 0.2, 0.4};
+  if (dimension == 3) m.ahead = {0.6, 0.8};
+  for (double t : {-0.5, 0.3, 1.0}) {
+    const auto value = body_motion(t);
+    m.rows.push_back({t,
+                      {value[0], value[1], value[2], value[3]},
+                      {0.3 + 1.6 * t, 0, -0.2 + 2.2 * t, 0.5 - 1.8 * t},
+                      {1.6, 0, 2.2, -1.8}});
+  }
+  return m;
+}
 
 /// A disordered block: soil in the lower half, water above, walls around, everything moving. Lengths of order dp = 0.1
 /// m.
@@ -34,6 +52,7 @@ inline Cloud cloud(const CloudOptions& o) {
   p.still_water_level = 0.9;
   p.low = {-1, -1, -1}, p.high = {3, 3, 3};
   p.free_slip_sides = true;
+  if (o.bodies) p.bodies = {motion_of_the_body(o.dimension)};
 
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -56,6 +75,7 @@ inline Cloud cloud(const CloudOptions& o) {
             s.in.wall_normal.insert(s.in.wall_normal.end(), {side, 0.f, 0.f});
           s.in.wall_volume.push_back(float(std::pow(0.1, o.dimension) * (1 + 0.2 * u(random))));
           s.in.wall_kind.push_back(bed ? 0 : 1);
+          if (o.bodies) s.in.wall_body.push_back(i >= n ? 1 : 0);  // the east wall and the bed below it move
         } else if (2 * k < n) {
           s.in.soil_x.insert(s.in.soil_x.end(), {x, y, z});
           for (int c = 0; c < 3; ++c) s.in.soil_v.push_back(o.dimension == 2 && c == 1 ? 0 : float(0.3 * u(random)));

@@ -2,6 +2,8 @@
 // phases.
 #include <gtest/gtest.h>
 
+#include <complex>
+
 #include "cloud.hh"
 #include "physics/interface.hh"
 #include "physics/kernel.hh"
@@ -22,9 +24,9 @@ class Oracle {
   using V = Vec<double, D>;
   using S = Stress<double, D>;
   ModelParameters p;
-  std::vector<V> xw, vw, xs, vs, xb, nb;
+  std::vector<V> xw, vw, xs, vs, xb, nb, vb, ab, xb0, nb0;
   std::vector<double> ew, volume_b;
-  std::vector<int> kind_b;
+  std::vector<int> kind_b, body_b;
   std::vector<S> sigma;
 
   explicit Oracle(const Cloud& c) : p(c.p) {
@@ -33,6 +35,10 @@ class Oracle {
     ew.assign(c.in.water_excess.begin(), c.in.water_excess.end());
     volume_b.assign(c.in.wall_volume.begin(), c.in.wall_volume.end());
     kind_b.assign(c.in.wall_kind.begin(), c.in.wall_kind.end());
+    body_b.assign(c.in.wall_body.begin(), c.in.wall_body.end());
+    body_b.resize(xb.size(), 0);
+    xb0 = xb, nb0 = nb;
+    move_bodies(0, 0);
     sigma = stresses(c.in.soil_stress);
     for (int k = 0; k < D; ++k) g[k] = p.gravity[axis(k)];
     volume = std::pow(p.dp, D), mw = p.water_density * volume, ms = p.soil_density * volume;
@@ -55,6 +61,35 @@ class Oracle {
   V g;
   double volume, mw, ms;
 
+  /// Where a point of the body is at time t, pitched about its pivot in the plane of `ahead`.
+  V body_point(const V& start, double t, bool direction) const {
+    const PrescribedMotion& m = p.bodies[0];
+    const auto moved = test::body_motion(t);
+    std::array<double, 3> arm{}, out{};
+    for (int k = 0; k < D; ++k) arm[axis(k)] = start[k] - (direction ? 0 : m.pivot[axis(k)]);
+    const double along = arm[0] * m.ahead[0] + arm[1] * m.ahead[1], across = arm[1] * m.ahead[0] - arm[0] * m.ahead[1];
+    const std::complex<double> turned =
+        std::complex<double>(along, arm[2]) * std::polar(1.0, -moved[3]);  // pitch lowers what is ahead
+    out[0] = turned.real() * m.ahead[0] - across * m.ahead[1];
+    out[1] = turned.real() * m.ahead[1] + across * m.ahead[0];
+    out[2] = turned.imag();
+    V result;
+    for (int k = 0; k < D; ++k) result[k] = out[axis(k)] + (direction ? 0 : m.pivot[axis(k)] + moved[axis(k)]);
+    return result;
+  }
+  /// Bodies at time t, with the velocity of the time `middle`; derivatives are differences.
+  void move_bodies(double t, double middle) {
+    vb.assign(xb.size(), V{}), ab.assign(xb.size(), V{});
+    const double e = 1e-4;
+    for (std::size_t b = 0; b < xb.size(); ++b) {
+      if (!body_b[b]) continue;
+      xb[b] = body_point(xb0[b], t, false), nb[b] = body_point(nb0[b], t, true);
+      vb[b] = (0.5 / e) * (body_point(xb0[b], middle + e, false) - body_point(xb0[b], middle - e, false));
+      const V later = body_point(xb0[b], t + e, false) - xb[b], earlier = xb[b] - body_point(xb0[b], t - e, false);
+      ab[b] = (1 / (e * e)) * (later - earlier);
+    }
+  }
+
   double w(double r) const {
     return p.cubic_kernel ? CubicSpline<double, D>(p.h).value(r) : Wendland<double, D>(p.h).value(r);
   }
@@ -73,12 +108,12 @@ class Oracle {
   }
   double soil_c() const { return SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density); }
 
-  double water_image(const V& x, bool gravity) const {
+  double water_image(const V& x, const V& gravity) const {
     double top = 0, bottom = 0;
     for (std::size_t j = 0; j < xw.size(); ++j) {
       const V r = x - xw[j];
       const double rho = p.water_density + ew[j], weight = mw / rho * w(std::sqrt(dot(r, r)));
-      top += weight * (pressure(ew[j]) + (gravity ? rho * dot(g, r) : 0));
+      top += weight * (pressure(ew[j]) + rho * dot(gravity, r));
       bottom += weight;
     }
     return bottom > 0 ? top / bottom : 0;
@@ -119,15 +154,15 @@ class Oracle {
     }
     if (bottom == 0) return sum;
     V mean = (1 / bottom) * sum;
-    if (!slips(b)) return -1.0 * mean;
-    add_scaled(mean, -2 * dot(mean, nb[b]), nb[b]);
+    if (!slips(b)) return 2.0 * vb[b] - mean;
+    add_scaled(mean, -2 * dot(mean - vb[b], nb[b]), nb[b]);
     return mean;
   }
   /// Force coefficient of an interface pair: a_w = coefficient (x_w - x_s).
   double interface(std::size_t iw, std::size_t is) const {
     const V r = xw[iw] - xs[is];
     const double d = std::sqrt(dot(r, r)), rho_w = p.water_density + ew[iw];
-    const double ps = water_image(xs[is], p.image_gravity), rho_s = density(ps);
+    const double ps = water_image(xs[is], p.image_gravity ? g : V{}), rho_s = density(ps);
     const double phi = pressure(ew[iw]) / (rho_w * rho_w) + ps / (rho_s * rho_s) +
                        viscosity(r, vw[iw] - vs[is], p.water_alpha * p.sound_speed, 0.5 * (rho_w + rho_s));
     double repulsion = 0;
@@ -155,8 +190,8 @@ class Oracle {
     for (std::size_t b = 0; b < xb.size(); ++b) {
       const V r = xw[i] - xb[b];
       if (dot(r, r) >= 4 * p.h * p.h) continue;
-      const double pb = water_image(xb[b], true), rho_b = density(pb), m = mw * volume_b[b] / volume;
-      const double sum = pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) + viscosity(r, vw[i], ac, 0.5 * (rho_i + rho_b));
+      const double pb = water_image(xb[b], g - ab[b]), rho_b = density(pb), m = mw * volume_b[b] / volume;
+      const double sum = pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) + viscosity(r, vw[i] - vb[b], ac, 0.5 * (rho_i + rho_b));
       add_scaled(a, -m * sum * f(std::sqrt(dot(r, r))), r);
     }
     for (std::size_t j = 0; j < xs.size(); ++j) {
@@ -191,8 +226,8 @@ class Oracle {
       for (int c = 0; c < S::size; ++c) sum.c[c] = (sigma[i].c[c] + image.c[c]) / rho2;
       const double m = p.soil_density * volume_b[b], d = std::sqrt(dot(r, r));
       add_scaled(a, m * f(d), apply(sum, r));
-      V v = vs[i];
-      if (slips(b)) v = dot(vs[i], nb[b]) * nb[b];
+      V v = vs[i] - vb[b];
+      if (slips(b)) v = dot(v, nb[b]) * nb[b];
       if (p.wall_viscosity) add_scaled(a, -m * f(d) * viscosity(r, v, ac, p.soil_density), r);
     }
     for (std::size_t j = 0; j < xw.size(); ++j) {
@@ -213,7 +248,7 @@ class Oracle {
     }
     for (std::size_t b = 0; b < xb.size(); ++b) {
       const V r = xw[i] - xb[b];
-      rate += mw * volume_b[b] / volume * dot(vw[i], r) * f(std::sqrt(dot(r, r)));
+      rate += mw * volume_b[b] / volume * dot(vw[i] - vb[b], r) * f(std::sqrt(dot(r, r)));
     }
     for (std::size_t j = 0; j < xs.size(); ++j) {
       const V r = xw[i] - xs[j];
@@ -282,6 +317,8 @@ void compare_forces(const Options& o) {
 }
 TEST(Oracle, Forces2D) { compare_forces<2>({}); }
 TEST(Oracle, Forces3D) { compare_forces<3>({3}); }
+TEST(Oracle, ForcesBesideAMovingBody2D) { compare_forces<2>({2, true, false, false, true, true, true}); }
+TEST(Oracle, ForcesBesideAMovingBody3D) { compare_forces<3>({3, true, false, false, true, true, true}); }
 TEST(Oracle, ForcesOfThePaper2D) { compare_forces<2>({2, true, true, true}); }
 TEST(Oracle, ForcesOfThePaper3D) { compare_forces<3>({3, true, true, true}); }
 
@@ -313,6 +350,7 @@ void compare_step(Options o) {
   };
   move(oracle.xw, oracle.vw, water_f, oracle.mw, s.water_x);
   move(oracle.xs, oracle.vs, soil_f, oracle.ms, s.soil_x);
+  oracle.move_bodies(dt, 0.5 * dt);
   for (std::size_t i = 0; i < oracle.xw.size(); ++i)
     EXPECT_NEAR(s.water_excess[i], oracle.ew[i] + dt * oracle.density_rate(i), 1e-5) << i;
   const auto stress = Oracle<D>::stresses(s.soil_stress);
@@ -329,6 +367,8 @@ void compare_step(Options o) {
 }
 TEST(Oracle, Step2D) { compare_step<2>({}); }
 TEST(Oracle, Step3D) { compare_step<3>({3}); }
+TEST(Oracle, StepBesideAMovingBody2D) { compare_step<2>({2, true, false, false, true, true, true}); }
+TEST(Oracle, StepBesideAMovingBody3D) { compare_step<3>({3, true, false, false, true, true, true}); }
 
 /// Without walls and gravity the forces of all pairs, across the interface too, cancel to round-off.
 template <int D>
