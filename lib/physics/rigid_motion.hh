@@ -74,7 +74,8 @@ LGIW_FN void rigid_point(const RigidState& b, double ahead_x, double ahead_y, co
 }
 
 /// A direction of the body turned with it.
-LGIW_FN void rigid_direction(const RigidState& b, double ahead_x, double ahead_y, const double* direction, double* out) {
+LGIW_FN void rigid_direction(const RigidState& b, double ahead_x, double ahead_y, const double* direction,
+                             double* out) {
   const double along = direction[0] * ahead_x + direction[1] * ahead_y;
   const double a = along * b.cosine + direction[2] * b.sine;
   out[0] = direction[0] + (a - along) * ahead_x;

@@ -51,7 +51,39 @@ double greatest_water_depth(const ParticleData& data) {
   return data.water.size() ? data.header.still_water_level - lowest + 0.5 * data.header.dp : 0;
 }
 
+/// Derivative of values at times, second order within and first order at the ends.
+void differentiate(std::vector<MotionRow>& rows, double (MotionRow::*of)[4], double (MotionRow::*to)[4]) {
+  const std::size_t n = rows.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, n - 1);
+    for (int k = 0; k < 4; ++k) {
+      const auto slope = [&](std::size_t a, std::size_t b) {
+        return ((rows[b].*of)[k] - (rows[a].*of)[k]) / (rows[b].time - rows[a].time);
+      };
+      if (before == i || after == i) {
+        (rows[i].*to)[k] = after > before ? slope(before, after) : 0;
+      } else {
+        const double left = rows[i].time - rows[before].time, right = rows[after].time - rows[i].time;
+        (rows[i].*to)[k] = (right * slope(before, i) + left * slope(i, after)) / (left + right);
+      }
+    }
+  }
+}
+
 }  // namespace
+
+PrescribedMotion prescribed_motion(const BodyMotion& motion) {
+  PrescribedMotion p;
+  p.pivot = motion.pivot;
+  p.ahead = {std::sin(motion.heading * degree), std::cos(motion.heading * degree)};
+  for (std::size_t i = 0; i < motion.time.size(); ++i) {
+    const auto& d = motion.displacement[i];
+    p.rows.push_back({motion.time[i], {d[0], d[1], d[2], motion.pitch[i]}, {}, {}});
+  }
+  differentiate(p.rows, &MotionRow::value, &MotionRow::rate);
+  differentiate(p.rows, &MotionRow::rate, &MotionRow::rate2);
+  return p;
+}
 
 NumberType number_type(Precision precision) {
   switch (precision) {
@@ -118,6 +150,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
   if (any_absorbing && water) p.absorbing_rate = 9 * std::sqrt(g * greatest_water_depth(data)) / p.absorbing_width;
   p.settle_rate = std::sqrt(g / p.dp);
   if (c.numerics.settle_time > 0) p.settle_time = c.numerics.settle_time;
+  for (const BodyMotion& motion : header.bodies) p.bodies.push_back(prescribed_motion(motion));
   return p;
 }
 
@@ -126,6 +159,8 @@ InitialParticles make_particles(const Case& c, const ParticleData& data) {
   in.water_x = data.water.points, in.soil_x = data.soil.points, in.wall_x = data.wall.points;
   in.soil_stress = data.soil.stress;
   in.wall_normal = data.wall.normal, in.wall_volume = data.wall.volume, in.wall_kind = data.wall.kind;
+  in.wall_body = data.wall.body;
+  in.water_v = data.water.velocity, in.soil_v = data.soil.velocity;
   // From the pressure, whose single precision is finer than that of the density.
   const EquationOfState<double> eos(c.water.density, sound_speed(c, data.header));
   in.water_excess.reserve(data.water.size());

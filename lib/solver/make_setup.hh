@@ -19,6 +19,8 @@ namespace lgiw {
 ///   of length L; its time, where the soil settles and none is given, 5 L/c_s: exp(-7) of such waves are left.
 ModelParameters make_model(const Case& c, const ParticleData& data);
 InitialParticles make_particles(const Case& c, const ParticleData& data);
+/// A motion with its first and second derivatives, differences of the table: second order between its rows.
+PrescribedMotion prescribed_motion(const BodyMotion& motion);
 NumberType number_type(Precision precision);
 
 }  // namespace lgiw

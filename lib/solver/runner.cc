@@ -166,7 +166,10 @@ class Runner {
       << header_.case_text << '\n'
       << int(case_.numerics.precision) << ' ' << header_.sound_speed << hash(data.water.points)
       << hash(data.water.pressure) << hash(data.soil.points) << hash(data.soil.stress) << hash(data.wall.points)
-      << hash(data.wall.volume) << hash(data.wall.normal) << hash(data.wall.kind);
+      << hash(data.wall.volume) << hash(data.wall.normal) << hash(data.wall.kind) << hash(data.wall.body)
+      << hash(data.water.velocity) << hash(data.soil.velocity);
+    for (const BodyMotion& m : header_.bodies)
+      s << hash(m.pivot) << m.heading << hash(m.time) << hash(m.pitch) << hash(m.displacement);
     return sha256_of_text(s.str());
   }
 

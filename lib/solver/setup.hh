@@ -12,9 +12,9 @@ namespace lgiw {
 
 /// A rigid body that moves as prescribed.
 struct PrescribedMotion {
-  std::array<double, 3> pivot{};         // m, at t = 0
-  std::array<double, 2> ahead{1, 0};     // unit vector in plan: a positive pitch lowers this side
-  std::vector<MotionRow> rows;           // at least one
+  std::array<double, 3> pivot{};      // m, at t = 0
+  std::array<double, 2> ahead{1, 0};  // unit vector in plan: a positive pitch lowers this side
+  std::vector<MotionRow> rows;        // at least one
 };
 
 /// The model of a case in numbers, SI units, angles in radians. make_setup() fills it from a case.

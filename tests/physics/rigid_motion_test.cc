@@ -9,7 +9,8 @@ namespace {
 const double pivot[3] = {10, 0, 5};
 
 TEST(RigidMotion, RestsBeforeAndAfterItsTable) {
-  const MotionRow rows[2] = {{0, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}}, {2, {2, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}}};
+  const MotionRow rows[2] = {{0, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}},
+                             {2, {2, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}}};
   for (double t : {-1.0, 2.0, 3.0}) {
     const RigidState s = rigid_state(rows, 2, pivot, t);
     EXPECT_EQ(s.pivot[0], t < 0 ? 10 : 12);

@@ -29,8 +29,8 @@ TEST(LakeAtRest, RealCanyonCalmsDownAndKeepsItsLevel) {
   std::printf(
       "measured: lake at rest, dp 30 m: fastest particle %.2f m/s at 10 s, %.2f m/s at 60 s (0.01 sqrt(g h) = %.2f)\n",
       speeds[1], speeds[6], 0.01 * wave);
-  // Long waves decay slowest: energy by exp(-4 nu k^2 t) with nu = alpha c h / 10 = 90 m2/s; across the reservoir, 800 m
-  // wide, k = 2 pi / 800 m: to 0.33 in 50 s. Shorter ones are gone, and a fifth may have come as noise.
+  // Long waves decay slowest: energy by exp(-4 nu k^2 t) with nu = alpha c h / 10 = 90 m2/s; across the reservoir, 800
+  // m wide, k = 2 pi / 800 m: to 0.33 in 50 s. Shorter ones are gone, and a fifth may have come as noise.
   EXPECT_LT(run.diagnostic(s, "kinetic_energy"), 0.4 * energy_at_10);
   EXPECT_LT(speeds[6], 0.4 * speeds[1]);
   EXPECT_LT(speeds[6], 0.015 * wave);  // 5 particles deep; the bar of 0.01 is for the case's own spacing

@@ -191,7 +191,8 @@ class Oracle {
       const V r = xw[i] - xb[b];
       if (dot(r, r) >= 4 * p.h * p.h) continue;
       const double pb = water_image(xb[b], g - ab[b]), rho_b = density(pb), m = mw * volume_b[b] / volume;
-      const double sum = pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) + viscosity(r, vw[i] - vb[b], ac, 0.5 * (rho_i + rho_b));
+      const double sum =
+          pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) + viscosity(r, vw[i] - vb[b], ac, 0.5 * (rho_i + rho_b));
       add_scaled(a, -m * sum * f(std::sqrt(dot(r, r))), r);
     }
     for (std::size_t j = 0; j < xs.size(); ++j) {
