@@ -1,0 +1,69 @@
+// lgiw-validation: judges runs of the benchmarks against their references. See ../README.md.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "base/atomic_file.hh"
+#include "base/error.hh"
+#include "base/tool_main.hh"
+#include "evaluate.hh"
+#include "report.hh"
+
+namespace {
+
+using namespace lgiw;
+using namespace lgiw::validation;
+
+struct Options {
+  std::string case_folder, results, table, output = "-";
+  bool quick = false;
+  CommonOptions common;
+};
+
+/// 1 in quick mode when a bar is missed: then it is a test.
+int check(const Options& o) {
+  const std::vector<Row> rows = evaluate(o.case_folder, o.results, o.quick);
+  LGIW_VALIDATE(!rows.empty(), "nothing of " + o.case_folder + " can be judged",
+                "its checks fit none of the runs in " + o.results, "make the runs first");
+  write_text_file(o.output, rows_csv(rows), o.common.overwrite);
+  if (!o.quick) return 0;
+  return std::any_of(rows.begin(), rows.end(), [](const Row& r) { return r.judged() && !r.pass(); });
+}
+
+int merge(const Options& o) {
+  const std::string rows = merged_rows(o.results);
+  write_text_file(o.output, rows, o.common.overwrite);
+  if (o.output != "-" && !o.common.quiet) std::cout << summary_text(read_csv(o.output));
+  return 0;
+}
+
+int tabulate(const Options& o) {
+  write_text_file(o.output, markdown(read_csv(o.table)), o.common.overwrite);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Judges runs of the benchmarks against their references.", "lgiw-validation");
+  Options o;
+  app.require_subcommand(1);
+  app.fallthrough();
+  CLI::App* check_command = app.add_subcommand("check", "one case: its checks on the runs that are there, as CSV");
+  check_command->add_option("CASE", o.case_folder, "folder with runs.txt and checks.yaml")->required();
+  check_command->add_option("RESULTS", o.results, "folder of the runs' folders")->required();
+  check_command->add_flag("--quick", o.quick, "the runs and bars of the tests; exit status 1 when a bar is missed");
+  CLI::App* merge_command = app.add_subcommand("merge", "all cases: one CSV, and on stdout what is met");
+  merge_command->add_option("RESULTS", o.results, "folder of the cases' results")->required();
+  CLI::App* table_command = app.add_subcommand("table", "the CSV as a Markdown table");
+  table_command->add_option("CSV", o.table, "validation.csv")->required();
+  app.add_option("-o,--output", o.output, "file to write; - is standard output");
+  add_common_options(app, o.common, "");
+  app.footer("Example: lgiw-validation check pipelines/validation/tank pipelines/out/validation/tank");
+  return tool_main(app, argc, argv, [&] {
+    if (check_command->parsed()) return check(o);
+    if (merge_command->parsed()) return merge(o);
+    return tabulate(o);
+  });
+}

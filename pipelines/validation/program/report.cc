@@ -1,0 +1,84 @@
+#include "report.hh"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "base/error.hh"
+#include "row.hh"
+
+namespace lgiw::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cell(const CsvFile& rows, std::size_t k, const std::string& column) {
+  return rows.cells[k].at(rows.column(column));
+}
+
+}  // namespace
+
+std::string merged_rows(const std::string& results_folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(results_folder))
+    if (fs::exists(entry.path() / "rows.csv")) files.push_back(entry.path() / "rows.csv");
+  LGIW_VALIDATE(!files.empty(), results_folder + " holds no rows.csv", "no benchmark has been judged yet",
+                "run make -C pipelines validate");
+  std::sort(files.begin(), files.end());
+  std::string text = rows_csv({});
+  for (const fs::path& file : files) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) text += line + "\n";
+  }
+  return text;
+}
+
+std::string summary_text(const CsvFile& rows) {
+  std::string text;
+  int judged = 0, met = 0;
+  for (std::size_t k = 0; k < rows.cells.size(); ++k) {
+    const std::string pass = cell(rows, k, "pass");
+    if (pass.empty()) continue;
+    ++judged, met += pass == "yes";
+    char line[300];
+    std::snprintf(line, sizeof line, "%-4s %-18s %-58s %10s (%s) error %9s bar %8s  dp %s\n",
+                  pass == "yes" ? "ok" : "MISS", cell(rows, k, "case").c_str(), cell(rows, k, "quantity").c_str(),
+                  cell(rows, k, "measured").c_str(), cell(rows, k, "reference").c_str(), cell(rows, k, "error").c_str(),
+                  cell(rows, k, "bar").c_str(), cell(rows, k, "dp").c_str());
+    text += line;
+  }
+  return text + std::to_string(met) + " of " + std::to_string(judged) + " bars are met, " +
+         std::to_string(judged - met) + " are missed\n";
+}
+
+std::string markdown(const CsvFile& rows) {
+  // Rows of a quantity stand together, the finest last.
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
+  for (std::size_t k = 0; k < rows.cells.size(); ++k) {
+    const std::string name = cell(rows, k, "case") + "|" + cell(rows, k, "quantity");
+    if (groups.empty() || groups.back().first != name) groups.push_back({name, {}});
+    groups.back().second.push_back(k);
+  }
+  std::string text =
+      "| case | quantity | unit | reference | measured | error | bar | met | dp (m) | wall time (s) | errors when "
+      "coarser |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [name, lines] : groups) {
+    const std::size_t k = lines.back();
+    text += "|";
+    for (const char* column :
+         {"case", "quantity", "unit", "reference", "measured", "error", "bar", "pass", "dp", "wall_time_s"})
+      text += " " + cell(rows, k, column) + " |";
+    std::string coarser;
+    for (std::size_t j = 0; j + 1 < lines.size(); ++j) coarser += (j ? ", " : "") + cell(rows, lines[j], "error");
+    text += " " + coarser + " |\n";
+  }
+  return text;
+}
+
+}  // namespace lgiw::validation

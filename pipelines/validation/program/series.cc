@@ -1,0 +1,161 @@
+// Measures of series in time: gauges, the diagnostics of the run, tables of the tools.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hh"
+#include "measures.hh"
+#include "series.hh"
+
+namespace lgiw::validation {
+
+Series gauge_series(const Run& run, const std::string& gauge) {
+  const CsvFile csv = read_csv(run.folder + "/gauges.csv");
+  Series s{csv.numbers("time_s", "gauge", gauge), csv.numbers("height_m", "gauge", gauge)};
+  LGIW_VALIDATE(!s.time.empty(), csv.path + " has no gauge " + gauge, "a check asks for it", "add it to the case");
+  return s;
+}
+
+Series between(const Series& s, double from, double to) {
+  Series part;
+  for (std::size_t k = 0; k < s.time.size(); ++k)
+    if (s.time[k] >= from && s.time[k] <= to && std::isfinite(s.value[k]))
+      part.time.push_back(s.time[k]), part.value.push_back(s.value[k]);
+  return part;
+}
+
+Extreme extreme(const Series& s, bool highest) {
+  if (s.value.empty()) return {};
+  const auto at =
+      highest ? std::max_element(s.value.begin(), s.value.end()) : std::min_element(s.value.begin(), s.value.end());
+  const std::size_t k = std::size_t(at - s.value.begin());
+  return {s.value[k], s.time[k]};
+}
+
+namespace {
+
+/// The series of the run's gauge `gauge` and that of column `column` of `file` (multiplied by `scale`, time by
+/// `time_scale`), if the check names one; both between `from` and `to`.
+struct Pair {
+  Series measured, reference;
+};
+Pair gauge_pair(const Run& run, const Keys& keys) {
+  const double from = keys.number("from", -last_time), to = keys.number("to", last_time);
+  Pair p{between(gauge_series(run, keys.text("gauge")), from, to), {}};
+  if (keys.has("file")) {
+    const CsvFile csv = keys.csv("file");
+    Series s{csv.numbers(keys.text("time_column", "1")), csv.numbers(keys.text("column"))};
+    for (double& t : s.time) t *= keys.number("time_scale", 1);
+    for (double& v : s.value) v *= keys.number("scale", 1);
+    p.reference = between(s, from, to);
+  }
+  return p;
+}
+
+/// Highest and lowest of a gauge, m, and when, s. The same of the reference series where the check names a `file`.
+Value crest(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  return {extreme(p.measured, true).value, extreme(p.reference, true).value};
+}
+Value trough(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  return {extreme(p.measured, false).value, extreme(p.reference, false).value};
+}
+Value crest_time(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  return {extreme(p.measured, true).time, extreme(p.reference, true).time};
+}
+Value trough_time(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  return {extreme(p.measured, false).time, extreme(p.reference, false).time};
+}
+
+/// RMS difference of a gauge and its reference series at the times of the latter, over the range of the latter.
+Value gauge_nrmse(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  double sum = 0, n = 0;
+  for (std::size_t k = 0; k < p.reference.time.size(); ++k) {
+    const double d = interpolate(p.measured.time, p.measured.value, p.reference.time[k]) - p.reference.value[k];
+    if (std::isfinite(d)) sum += d * d, n += 1;
+  }
+  return {std::sqrt(sum / n) / (extreme(p.reference, true).value - extreme(p.reference, false).value), 0};
+}
+
+/// Speed of the highest crest between the gauges `gauge` and `second`, m/s; reference: sqrt(g (d + a)) with the depth
+/// `depth` and the mean of the two crests.
+Value celerity(const Run& run, const Keys& keys) {
+  const std::string names[2] = {keys.text("gauge"), keys.text("second")};
+  double x[2] = {missing, missing}, a = 0, t[2];
+  for (int k = 0; k < 2; ++k) {
+    const Extreme e = extreme(gauge_series(run, names[k]), true);
+    t[k] = e.time, a += e.value / 2;
+    for (const Gauge& g : run.c.gauges)
+      if (g.name == names[k]) x[k] = g.x;
+  }
+  return {(x[1] - x[0]) / (t[1] - t[0]), std::sqrt(-run.c.gravity[2] * (keys.number("depth") + a))};
+}
+
+double reduce(const Series& s, const Keys& keys) {
+  const std::string how = keys.text("reduce", "last");
+  if (s.value.empty()) return missing;
+  if (how == "last") return s.value.back();
+  if (how == "first") return s.value.front();
+  if (how == "max") return extreme(s, true).value;
+  if (how == "min") return extreme(s, false).value;
+  if (how == "change") return s.value.back() - s.value.front();
+  if (how == "mean") {
+    double sum = 0;
+    for (double v : s.value) sum += v;
+    return sum / double(s.value.size());
+  }
+  throw InputError(keys.where() + ": reduce is " + how, "it is none of last, first, max, min, change, mean",
+                   "write one of them");
+}
+
+/// A column of the run's diagnostics, reduced over `from` to `to` as `reduce` (last) says.
+Value diagnostic(const Run& run, const Keys& keys) {
+  const auto columns = run.file->diagnostics();
+  const auto column = columns.find(keys.text("column"));
+  LGIW_VALIDATE(column != columns.end(), keys.where() + ": there is no diagnostic " + keys.text("column"),
+                "the run has others", "name one of its diagnostics");
+  return {reduce(
+      between({columns.at("time"), column->second}, keys.number("from", -last_time), keys.number("to", last_time)),
+      keys)};
+}
+
+/// The same of a column of a table that a tool wrote into the run's folder: `table` slide.csv, with its time column.
+Value table(const Run& run, const Keys& keys) {
+  const CsvFile csv = read_csv(run.folder + "/" + keys.text("table"));
+  return {reduce(between({csv.numbers("time_s"), csv.numbers(keys.text("column"))}, keys.number("from", -last_time),
+                         keys.number("to", last_time)),
+                 keys)};
+}
+
+/// How far the total energy rises above what it was before, over what has been released by the end.
+Value energy_created(const Run& run, const Keys&) {
+  const auto columns = run.file->diagnostics();
+  std::vector<double> total(columns.at("time").size(), 0.0);
+  for (const char* part : {"kinetic_energy", "potential_energy", "compression_energy"}) {
+    const auto column = columns.find(part);
+    if (column == columns.end()) continue;
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += column->second[k];
+  }
+  double rise = 0, lowest = total.front();
+  for (double e : total) lowest = std::min(lowest, e), rise = std::max(rise, e - lowest);
+  return {rise / (total.front() - lowest), 0};
+}
+
+}  // namespace
+
+void add_series(std::map<std::string, Measure>& all) {
+  all["crest"] = crest;
+  all["trough"] = trough;
+  all["crest_time"] = crest_time;
+  all["trough_time"] = trough_time;
+  all["gauge_nrmse"] = gauge_nrmse;
+  all["celerity"] = celerity;
+  all["diagnostic"] = diagnostic;
+  all["table"] = table;
+  all["energy_created"] = energy_created;
+}
+
+}  // namespace lgiw::validation
