@@ -120,6 +120,15 @@ struct MovingBody {
   std::optional<Point2> pivot;  // x, z; default: the centroid of the outline
 };
 
+/// mu(I): strength that grows with the shear rate, up to that of friction_angle_fast.
+struct SoilRate {
+  bool present = false;
+  double friction_angle_fast = 0;  // degrees
+  double inertial_number = 0.279;  // I_0, at which half of the growth is reached
+  double grain_diameter = 0;       // m
+  double grain_density = 2650;     // of the grains themselves, kg/m3
+};
+
 struct Soil {
   double density = 2000;       // bulk, including pore water, kg/m3
   double friction_angle = 30;  // degrees
@@ -136,6 +145,7 @@ struct Soil {
   WallFriction sides = WallFriction::free_slip;
   double bed_friction_angle = 0;  // degrees, with bed: coulomb
   InitialStress initial_stress = InitialStress::k0;
+  SoilRate rate;
 };
 
 struct Interface {
@@ -149,8 +159,9 @@ struct Numerics {
   double h_over_dp = 1.5;
   Integrator integrator = Integrator::leapfrog;
   double cfl = 0.4;
-  bool return_mapping = true;  // false: rate form, Eqs. (8)-(9)
-  bool wall_viscosity = true;  // Pi_ib of physics.md section 8
+  bool return_mapping = true;          // false: rate form, Eqs. (8)-(9)
+  bool wall_viscosity = true;          // Pi_ib of physics.md section 8
+  bool corrected_strain_rate = false;  // first-order velocity gradient of the soil
   Precision precision = Precision::mixed;
   double settle_time = 0;  // s of damped motion before t = 0; the soil is held unless its initial stress is to settle
   Backend backend = Backend::auto_;

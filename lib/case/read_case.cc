@@ -178,9 +178,24 @@ void read_slide(const YamlSection& s, int dimension, Slide& slide) {
   read_motion(s.section("motion"), dimension, slide.motion);
 }
 
+// 1.58 is just above pi / 2: everything below looks like radians or a fraction.
+const std::vector<UnitMistake> radians{{1e-9, 1.58, "radians", 57.2958}};
+
+void read_soil_rate(const YamlSection& s, SoilRate& rate) {
+  rate.present = s.present();
+  for (const char* key : {"friction_angle_fast", "grain_diameter"})
+    s.require(key, "the strength at high rates has no default",
+              "write rate: {friction_angle_fast: 41, grain_diameter: 0.001}");
+  s.number("friction_angle_fast", rate.friction_angle_fast,
+           {.unit = "degrees", .low = 2, .high = 70, .mistakes = radians});
+  s.number("inertial_number", rate.inertial_number, {.low = 0, .high = 10, .above_low = true});
+  s.number("grain_diameter", rate.grain_diameter,
+           {.unit = "m", .low = 1e-6, .high = 10, .mistakes = {{10, 1e4, "mm", 1e-3}}});
+  s.number("grain_density", rate.grain_density,
+           {.unit = "kg/m3", .low = 500, .high = 9000, .mistakes = {{0.5, 9, "t/m3", 1000}}});
+}
+
 void read_soil(const YamlSection& s, Soil& soil) {
-  // 1.58 is just above pi / 2: everything below looks like radians or a fraction.
-  const std::vector<UnitMistake> radians{{1e-9, 1.58, "radians", 57.2958}};
   s.number("density", soil.density,
            {.unit = "kg/m3",
             .low = 300,
@@ -208,6 +223,7 @@ void read_soil(const YamlSection& s, Soil& soil) {
            {.unit = "degrees", .low = 2, .high = 60, .or_zero = true, .mistakes = radians});
   s.choice<InitialStress>("initial_stress", soil.initial_stress,
                           {{"k0", InitialStress::k0}, {"settled", InitialStress::settled}});
+  read_soil_rate(s.section("rate"), soil.rate);
 }
 
 void read_interface(const YamlSection& s, Interface& interface) {
@@ -243,6 +259,7 @@ void read_numerics(const YamlSection& s, Numerics& n) {
   s.number("cfl", n.cfl, {.low = 0, .high = 1, .above_low = true});
   s.choice<bool>("constitutive", n.return_mapping, {{"return_mapping", true}, {"rate_form", false}});
   s.flag("wall_viscosity", n.wall_viscosity);
+  s.choice<bool>("strain_rate", n.corrected_strain_rate, {{"plain", false}, {"corrected", true}});
   s.choice<Precision>("precision", n.precision,
                       {{"single", Precision::single_}, {"mixed", Precision::mixed}, {"double", Precision::double_}});
   s.number("settle_time", n.settle_time, between(0, 1e5, "s"));

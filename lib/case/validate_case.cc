@@ -279,6 +279,13 @@ class Validator {
               number_text(soil.dilatancy_angle) + " is more than " + number_text(soil.friction_angle) +
                   " degrees; shearing would create energy",
               "write at most " + number_text(soil.friction_angle) + "; 0 is usual");
+    refuse_if(soil.rate.present && soil.rate.friction_angle_fast <= soil.friction_angle,
+              "soil.rate.friction_angle_fast", "soil.rate.friction_angle_fast is not above the friction angle",
+              number_text(soil.rate.friction_angle_fast) + " is not more than " + number_text(soil.friction_angle) +
+                  " degrees; strength grows with the rate",
+              "write a larger angle, or leave soil.rate out");
+    refuse_if(soil.rate.present && !c_.numerics.return_mapping, "soil.rate", "soil.rate with the rate form",
+              "mu(I) is part of the return mapping", "write numerics.constitutive: return_mapping");
     for (const auto& [key, friction] : {std::pair("soil.bed", soil.bed), std::pair("soil.sides", soil.sides)})
       refuse_if(friction == WallFriction::coulomb && soil.bed_friction_angle <= 0, key,
                 std::string(key) + " is coulomb without soil.bed_friction_angle", "the friction has no limit",

@@ -87,6 +87,18 @@ LGIW_FN Stress<T, D> elastic_increment(const SoilMaterial<T>& m, const Stress<T,
   return d;
 }
 
+/// Takes the trial stress back by the plastic multiplier `lambda` along the flow direction of the cone; root_j2 >= 0 is
+/// what then remains. Returns the increment of Adps.
+template <class T, int D>
+LGIW_FN T return_along_flow(const SoilMaterial<T>& m, const Deviator<T, D>& trial, T lambda, T root_j2,
+                            Stress<T, D>& sigma) {
+  const T i1 = trial.i1 - 9 * m.bulk * m.alpha_psi * lambda;
+  const T scale = trial.root_j2 > 0 ? root_j2 / trial.root_j2 : T(0);
+  for (int k = 0; k < Stress<T, D>::size; ++k) sigma.c[k] = scale * trial.s.c[k];
+  add_isotropic(sigma, i1 / 3);
+  return lambda * square_root(T(1.0 / 3) + 2 * m.alpha_psi * m.alpha_psi);
+}
+
 /// Return mapping (physics.md section 5). Brings the trial stress back to the cone or its apex and returns the
 /// increment of Adps, the accumulated deviatoric plastic strain: int sqrt(2/3 deps_p : deps_p).
 template <class T, int D>
@@ -96,13 +108,7 @@ LGIW_FN T return_mapping(const SoilMaterial<T>& m, Stress<T, D>& sigma, T pore_p
   if (!(f > 0)) return 0;
   const T lambda = f / (m.shear + 9 * m.bulk * m.alpha_phi * m.alpha_psi);
   const T root_j2 = trial.root_j2 - m.shear * lambda;
-  if (root_j2 >= 0) {
-    const T i1 = trial.i1 - 9 * m.bulk * m.alpha_psi * lambda;
-    const T scale = trial.root_j2 > 0 ? root_j2 / trial.root_j2 : T(0);
-    for (int k = 0; k < Stress<T, D>::size; ++k) sigma.c[k] = scale * trial.s.c[k];
-    add_isotropic(sigma, i1 / 3);
-    return lambda * square_root(T(1.0 / 3) + 2 * m.alpha_psi * m.alpha_psi);
-  }
+  if (root_j2 >= 0) return return_along_flow(m, trial, lambda, root_j2, sigma);
   // Only a cone with friction has an apex; without it root_j2 = k_c >= 0 above.
   const T i1 = smallest(trial.i1, m.k_c / m.alpha_phi - 3 * pore_pressure);
   const T volumetric = (trial.i1 - i1) / (3 * m.bulk);
@@ -110,6 +116,41 @@ LGIW_FN T return_mapping(const SoilMaterial<T>& m, Stress<T, D>& sigma, T pore_p
   add_isotropic(sigma, i1 / 3);
   const T shear_part = trial.root_j2 / m.shear;
   return square_root(T(2.0 / 3) * (T(0.5) * shear_part * shear_part + volumetric * volumetric / 3));
+}
+
+/// Strength that grows with the rate of shearing: mu(I) = mu_s + (mu_2 - mu_s) / (I_0 / I + 1) with the inertial number
+/// I = |gamma'| d sqrt(rho_g / p) (Jop, Forterre and Pouliquen, Nature 441, 2006, 727). On the Drucker-Prager cone mu
+/// is 3 alpha_phi, sqrt(J2) over the effective mean pressure p; in plane strain without dilatancy sin(phi).
+template <class T>
+struct RateStrength {
+  T extra_alpha = 0;  // alpha_phi of the fastest shearing less that of the slowest; 0: independent of the rate
+  T threshold = 0;    // I_0 / (d sqrt(rho_g)): the shear rate at which half of it acts is threshold sqrt(p)
+
+  RateStrength() = default;
+  /// `slow` and `fast` are the same soil with the friction angles of either end; grain diameter in m, density in kg/m3.
+  RateStrength(const SoilMaterial<double>& slow, const SoilMaterial<double>& fast, double inertial_number,
+               double grain_diameter, double grain_density)
+      : extra_alpha(T(fast.alpha_phi - slow.alpha_phi)),
+        threshold(T(inertial_number / (grain_diameter * std::sqrt(grain_density)))) {}
+};
+
+/// Return mapping with mu(I), implicit in the plastic multiplier l: the shear rate is l / dt, so that
+///   f_trial - H l = 3 (alpha_2 - alpha_s) p(l) l / (l + c),   p(l) = p + 3 K alpha_psi l,   c = dt threshold sqrt(p),
+/// H = G + 9 K alpha_phi alpha_psi, a quadratic equation with one positive root at any dt. c takes the trial pressure.
+template <class T, int D>
+LGIW_FN T return_mapping(const SoilMaterial<T>& m, const RateStrength<T>& rate, Stress<T, D>& sigma, T pore_pressure,
+                         T dt) {
+  const Deviator<T, D> trial(sigma);
+  const T pressure = -trial.i1 / 3 - pore_pressure;
+  if (!(pressure > 0)) return return_mapping(m, sigma, pore_pressure);  // the apex knows no friction
+  const T f = yield_function(m, trial.i1, trial.root_j2, pore_pressure);
+  if (!(f > 0)) return 0;
+  const T h = m.shear + 9 * m.bulk * m.alpha_phi * m.alpha_psi, extra = 3 * rate.extra_alpha;
+  const T c = dt * rate.threshold * square_root(pressure);
+  const T a = h + extra * 3 * m.bulk * m.alpha_psi, b = h * c + extra * pressure - f;
+  const T root = square_root(b * b + 4 * a * f * c);
+  const T lambda = b > 0 ? 2 * f * c / (b + root) : (root - b) / (2 * a);  // without cancellation
+  return return_along_flow(m, trial, lambda, largest(T(0), trial.root_j2 - m.shear * lambda), sigma);
 }
 
 /// The paper's rate form, Eqs. (8)-(9), with lambda' >= 0, the drift correction and the apex shift that it needs

@@ -123,6 +123,11 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
                                                             : Cone::plane_strain_associated);
     p.stress_diffusion = s.stress_diffusion, p.artificial_stress = s.artificial_stress;
     p.return_mapping = c.numerics.return_mapping, p.wall_viscosity = c.numerics.wall_viscosity;
+    p.corrected_strain_rate = c.numerics.corrected_strain_rate;
+    if (s.rate.present) {
+      p.friction_fast = s.rate.friction_angle_fast * degree, p.inertial_number = s.rate.inertial_number;
+      p.grain_diameter = s.rate.grain_diameter, p.grain_density = s.rate.grain_density;
+    }
     p.k0 = 1 - std::sin(p.friction);
     if (water && s.pore_pressure == PorePressure::hydrostatic) p.pore_gradient = c.water.density * g;
     p.coulomb_bed = s.bed == WallFriction::coulomb, p.free_slip_bed = s.bed == WallFriction::free_slip;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "physics/gradient_correction.hh"
 #include "physics/interface.hh"
 #include "physics/kernel.hh"
 #include "physics/soil.hh"
@@ -37,13 +38,14 @@ struct Parameters {
   bool density_diffusion;
   // Soil.
   SoilMaterial<T> soil;
+  RateStrength<T> soil_rate;
   ArtificialViscosity<T, D> soil_viscosity;
   T soil_density, soil_mass, stress_diffusion;  // 2 delta h c_s, 0: left out
   Stress<T, D> static_stress_dry,
       static_stress_wet;  // -d(stress)/d(g.x): rho_s kappa, above and below still water level
   T pore_gradient, still_water_level;
   T artificial_stress, inverse_w_dp;  // epsilon / rho_s^2, 1 / W(dp)
-  bool return_mapping, wall_viscosity, coulomb_bed;
+  bool return_mapping, wall_viscosity, coulomb_bed, corrected_strain_rate;
   T bed_friction;
   // Interface.
   InterfacePair<T, D> interface;
@@ -82,6 +84,13 @@ struct Parameters {
     const double cs =
         with_soil ? SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density) : 0;
     soil = SoilMaterial<T>(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy, Cone(p.cone));
+    if (p.friction_fast > 0) {
+      const auto with_friction = [&p](double friction) {
+        return SoilMaterial<double>(p.young_modulus, p.poisson_ratio, friction, p.cohesion, p.dilatancy, Cone(p.cone));
+      };
+      soil_rate = RateStrength<T>(with_friction(p.friction), with_friction(p.friction_fast), p.inertial_number,
+                                  p.grain_diameter, p.grain_density);
+    }
     soil_viscosity = ArtificialViscosity<T, D>(p.soil_alpha, cs, p.h);
     soil_density = T(p.soil_density), soil_mass = T(p.soil_density * v);
     stress_diffusion = T(2 * p.stress_diffusion * p.h * cs);
@@ -94,6 +103,7 @@ struct Parameters {
     artificial_stress = T(with_soil ? p.artificial_stress / (p.soil_density * p.soil_density) : 0);
     inverse_w_dp = 1 / kernel.value(dp);
     return_mapping = p.return_mapping, wall_viscosity = p.wall_viscosity, coulomb_bed = p.coulomb_bed;
+    corrected_strain_rate = p.corrected_strain_rate;
     bed_friction = T(p.bed_friction);
 
     interface.water_mass = water_mass;

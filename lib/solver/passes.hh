@@ -412,9 +412,9 @@ struct SoilRates : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D, S = Tr::S;
 
-  template <bool diffusion>
+  template <bool diffusion, bool corrected>
   LGIW_FN void over_soil(int cell, const V& x, const V& v, const Stress<T, D>& sigma, const Stress<T, D>& at_rest, T* l,
-                         Stress<T, D>& smoothing) const {
+                         Stress<T, D>& smoothing, MomentMatrix<T, D>& moment) const {
     const auto& s = this->soil;
     const auto& p = this->parameters;
     this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
@@ -422,6 +422,7 @@ struct SoilRates : Pass<Tr> {
       const T f = p.kernel.gradient(square_root(r2));
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      if constexpr (corrected) moment.add(f, r);
       if constexpr (diffusion) {
         const T g = dot(p.gravity, r);
         for (int c = 0; c < S; ++c) smoothing.c[c] -= (s.stress[c][j] - sigma.c[c] - g * at_rest.c[c]) * f;
@@ -429,14 +430,35 @@ struct SoilRates : Pass<Tr> {
     });
   }
 
-  template <class Walls>
-  LGIW_FN void over_walls(const Walls& walls, int cell, const V& x, const V& v, T* l) const {
+  template <bool corrected, class Walls>
+  LGIW_FN void over_walls(const Walls& walls, int cell, const V& x, const V& v, T* l,
+                          MomentMatrix<T, D>& moment) const {
     this->for_each_near(walls, cell, x, [&](int j, const V& r, T r2) {
       const V v_ji = B::load(walls.v, j) - v;
       const T f = walls.weight[j] * this->parameters.kernel.gradient(square_root(r2));
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      if constexpr (corrected) moment.add(f, r);
     });
+  }
+
+  template <bool corrected>
+  LGIW_FN void velocity_gradient(int cell, const V& x, const V& v, const Stress<T, D>& sigma, T pore, T* l,
+                                 Stress<T, D>& smoothing) const {
+    const auto& p = this->parameters;
+    MomentMatrix<T, D> moment;
+    if (p.stress_diffusion > 0)
+      over_soil<true, corrected>(cell, x, v, sigma, pore > 0 ? p.static_stress_wet : p.static_stress_dry, l, smoothing,
+                                 moment);
+    else
+      over_soil<false, corrected>(cell, x, v, sigma, p.static_stress_dry, l, smoothing, moment);
+    if (this->wall.n) over_walls<corrected>(this->wall, cell, x, v, l, moment);
+    if (this->bodies.n) over_walls<corrected>(this->bodies, cell, x, v, l, moment);
+    for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
+    if constexpr (corrected) {
+      moment.scale(p.volume);
+      correct_gradient(l, moment);
+    }
   }
 
   LGIW_FN void operator()(int i) const {
@@ -455,13 +477,10 @@ struct SoilRates : Pass<Tr> {
     for (int k = 0; k < D * D; ++k) l[k] = 0;
     Stress<T, D> smoothing;
     for (int k = 0; k < S; ++k) smoothing.c[k] = 0;
-    if (p.stress_diffusion > 0)
-      over_soil<true>(cell, x, v, sigma, pore > 0 ? p.static_stress_wet : p.static_stress_dry, l, smoothing);
+    if (p.corrected_strain_rate)
+      velocity_gradient<true>(cell, x, v, sigma, pore, l, smoothing);
     else
-      over_soil<false>(cell, x, v, sigma, p.static_stress_dry, l, smoothing);
-    if (this->wall.n) over_walls(this->wall, cell, x, v, l);
-    if (this->bodies.n) over_walls(this->bodies, cell, x, v, l);
-    for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
+      velocity_gradient<false>(cell, x, v, sigma, pore, l, smoothing);
     const bool euler = !p.verlet || st.euler_countdown == 0;
     const T dt = T(euler ? st.dt : st.dt + st.dt_previous);
     Stress<T, D> increment = elastic_increment(p.soil, sigma, l, dt);
@@ -471,7 +490,9 @@ struct SoilRates : Pass<Tr> {
     if (p.return_mapping || st.settling) {
       for (int k = 0; k < S; ++k) next.c[k] += increment.c[k];
       // Elastic while settling: a slope that is to fail must not creep away before t = 0.
-      if (!st.settling) adps = return_mapping(p.soil, next, pore);
+      if (!st.settling)
+        adps = p.soil_rate.extra_alpha > 0 ? return_mapping(p.soil, p.soil_rate, next, pore, dt)
+                                           : return_mapping(p.soil, next, pore);
     } else {
       adps = rate_form_update(p.soil, next, increment, l, dt, pore);
     }

@@ -31,7 +31,9 @@ struct ModelParameters {
   double soil_density = 0, young_modulus = 0, poisson_ratio = 0.3, friction = 0, cohesion = 0, dilatancy = 0;
   int cone = 0;  // Cone
   double soil_alpha = 0, stress_diffusion = 0, artificial_stress = 0;
-  bool return_mapping = true, wall_viscosity = true;
+  bool return_mapping = true, wall_viscosity = true, corrected_strain_rate = false;
+  double friction_fast = 0;  // friction angle of mu(I) at infinite shear rate; 0: strength independent of the rate
+  double inertial_number = 0, grain_diameter = 0, grain_density = 0;
   double k0 = 1;
   double pore_gradient = 0;  // rho0 g of the pore water, Pa/m; 0: none
   bool coulomb_bed = false, free_slip_bed = false, free_slip_sides = true;

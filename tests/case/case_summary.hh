@@ -53,10 +53,12 @@ inline std::string case_summary(const Case& c) {
   field(soil.density, soil.friction_angle, soil.cohesion, soil.dilatancy_angle, soil.young_modulus, soil.poisson_ratio,
         soil.viscosity_alpha, soil.stress_diffusion, soil.artificial_stress, int(soil.cone), int(soil.pore_pressure),
         int(soil.bed), int(soil.sides), soil.bed_friction_angle, int(soil.initial_stress));
+  field(soil.rate.present, soil.rate.friction_angle_fast, soil.rate.inertial_number, soil.rate.grain_diameter,
+        soil.rate.grain_density);
   field(c.interface.repulsion, c.interface.velocity_factor);
   const Numerics& n = c.numerics;
   field(n.scheme, int(n.kernel), n.h_over_dp, int(n.integrator), n.cfl, n.return_mapping, n.wall_viscosity,
-        int(n.precision), n.settle_time, int(n.backend), n.threads);
+        n.corrected_strain_rate, int(n.precision), n.settle_time, int(n.backend), n.threads);
   const Output& o = c.output;
   field(o.end_time, o.frame_interval, o.surface_interval, o.map_spacing, o.arrival_threshold, o.checkpoint_interval);
   for (const Gauge& g : c.gauges) field(g.name, g.x, g.y, int(g.quantity), g.z);

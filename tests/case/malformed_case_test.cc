@@ -174,6 +174,27 @@ INSTANTIATE_TEST_SUITE_P(
             "YoungInMegapascal", "friction_angle: 25", "young_modulus: 50",
             "c.yaml:14: soil.young_modulus is 50 (it must be at least 10000 and at most 1e+12 Pa; 50 looks like MPa) "
             "write 5e+07 if it is"},
+        Spoilt{
+            "FastFrictionBelowTheSlow", "friction_angle: 25",
+            "friction_angle: 25\n  rate: {friction_angle_fast: 24, grain_diameter: 0.001}",
+            "c.yaml:15: soil.rate.friction_angle_fast is not above the friction angle (24 is not more than 25 degrees; "
+            "strength grows with the rate) write a larger angle, or leave soil.rate out"},
+        Spoilt{"RateWithoutGrains", "friction_angle: 25", "friction_angle: 25\n  rate: {friction_angle_fast: 35}",
+               "c.yaml:15: soil.rate.grain_diameter is missing (the strength at high rates has no default) write rate: "
+               "{friction_angle_fast: 41, grain_diameter: 0.001}"},
+        Spoilt{
+            "GrainsInMillimetres", "friction_angle: 25",
+            "friction_angle: 25\n  rate: {friction_angle_fast: 35, grain_diameter: 20}",
+            "c.yaml:15: soil.rate.grain_diameter is 20 (it must be at least 1e-06 and at most 10 m; 20 looks like mm) "
+            "write 0.02 if it is"},
+        Spoilt{"RateInTheRateForm", "friction_angle: 25",
+               "friction_angle: 25\n  rate: {friction_angle_fast: 35, grain_diameter: 0.02}\nnumerics: {constitutive: "
+               "rate_form}",
+               "c.yaml:15: soil.rate with the rate form (mu(I) is part of the return mapping) write "
+               "numerics.constitutive: return_mapping"},
+        Spoilt{
+            "StrainRateUnknown", "friction_angle: 25", "friction_angle: 25\nnumerics: {strain_rate: exact}",
+            "c.yaml:15: numerics.strain_rate is \"exact\" (it is one of plain or corrected) did you mean \"plain\"?"},
         Spoilt{"PoissonOfOneHalf", "friction_angle: 25", "poisson_ratio: 0.5",
                "c.yaml:14: soil.poisson_ratio is 0.5 (it must be above 0 and below 0.5) the default is 0.3"},
         Spoilt{

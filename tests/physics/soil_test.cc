@@ -96,6 +96,62 @@ TEST(ReturnMapping, UndrainedClayHasNoApex) {
   EXPECT_NEAR(now.i1, 25000, 1e-6);
 }
 
+/// Shears an element at the rate gamma (1/s) and constant mean pressure until it flows, in steps of dt; returns
+/// sqrt(J2)/p.
+double steady_mu(double gamma, double pressure, double dt, double dilatancy = 0) {
+  const auto soil = [&](double phi) {
+    return SoilMaterial<double>(1e7, 0.3, phi, 0, dilatancy * degree, Cone::plane_strain);
+  };
+  const SoilMaterial<double> m = soil(25 * degree);
+  const RateStrength<double> rate(m, soil(36 * degree), 0.279, 0.001, 2650);
+  S2 s{{-pressure, -pressure, 0, -pressure}};
+  for (double strain = 0; strain < 0.1; strain += gamma * dt) {
+    const double l[4] = {0, gamma, 0, 0};
+    const S2 d = elastic_increment(m, s, l, dt);
+    for (int c = 0; c < 4; ++c) s.c[c] += d.c[c];
+    return_mapping(m, rate, s, 0.0, dt);
+    add_isotropic(s, -pressure - trace(s) / 3);  // dilatancy would raise it
+  }
+  return Deviator<double, 2>(s).root_j2 / pressure;
+}
+TEST(RateStrength, SimpleShearGivesMuOfI) {
+  for (double gamma : {0.1, 3.0, 30.0, 1000.0})
+    for (double pressure : {200.0, 5000.0})
+      for (double dt : {1e-5, 1e-3}) {
+        if (gamma * dt > 0.01) continue;  // it would be sheared through in a few steps
+        const double i = gamma * 0.001 * std::sqrt(2650 / pressure);
+        const double slow = std::sin(25 * degree), fast = std::sin(36 * degree);
+        EXPECT_NEAR(steady_mu(gamma, pressure, dt), slow + (fast - slow) / (0.279 / i + 1), 5e-4)
+            << gamma << " /s, " << pressure << " Pa, " << dt << " s";
+      }
+}
+TEST(RateStrength, IsTheRateIndependentMappingWhenSlowAndTheFastSoilInOneStep) {
+  const auto soil = [](double phi, double psi) {
+    return SoilMaterial<double>(1e7, 0.3, phi * degree, 300, psi * degree, Cone::plane_strain);
+  };
+  for (double psi : {0.0, 8.0}) {
+    const SoilMaterial<double> m = soil(25, psi), fast = soil(36, psi);
+    const RateStrength<double> rate(m, fast, 0.279, 0.001, 2650);
+    const S2 trial{{-1e4, -3e4, 9e3, -2e4}};
+    S2 expected = trial, s = trial;
+    const double adps = return_mapping(m, expected, 0.0);
+    ASSERT_GT(adps, 0);
+    EXPECT_NEAR(return_mapping(m, rate, s, 0.0, 1e9), adps, 1e-6 * adps);
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(s.c[c], expected.c[c], 1e-2);
+    s = trial;  // infinitely fast: on the cone of the fast soil's alpha_phi, along the slow one's flow direction
+    return_mapping(m, rate, s, 0.0, 1e-12);
+    const Deviator<double, 2> now(s);
+    EXPECT_NEAR(now.root_j2, m.k_c - fast.alpha_phi * now.i1, 1e-6 * now.root_j2);
+  }
+}
+TEST(RateStrength, TensionGoesToTheApexAsWithout) {
+  const SoilMaterial<double> m(1e6, 0.3, 30 * degree, 0, 0, Cone::plane_strain);
+  const SoilMaterial<double> fast(1e6, 0.3, 40 * degree, 0, 0, Cone::plane_strain);
+  S2 s{{500, 400, 100, 300}};
+  EXPECT_GT(return_mapping(m, RateStrength<double>(m, fast, 0.279, 0.001, 2650), s, 0.0, 1e-4), 0);
+  for (double c : s.c) EXPECT_NEAR(c, 0, 1e-9);
+}
+
 TEST(Elasticity, ConfinedCompressionAndPlaneStrain) {
   const double e = 1e6, nu = 0.3;
   const SoilMaterial<double> m(e, nu, 0.5, 0, 0, Cone::plane_strain);
