@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hh"
+#include "measure/norms.hh"
 #include "measure/surface_sampling.hh"
 
 namespace lgiw {
@@ -51,33 +52,15 @@ GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thr
     }
 
   const bool water = series.surface == GaugeSurface::water;
-  for (double threshold : thresholds) {
-    // How far the water has come: NaN where it is dry.
-    const auto change = [&](std::size_t k) {
-      return water && series.initially_dry ? series.elevation[k] - series.bed : std::abs(height(k));
-    };
-    double arrival = no_value;
-    for (std::size_t k = 0; k < n && std::isnan(arrival); ++k) {
-      if (!(change(k) > threshold)) continue;
-      arrival = series.time[k];
-      if (k > 0 && change(k - 1) <= threshold) {
-        const double a = (threshold - change(k - 1)) / (change(k) - change(k - 1));
-        arrival = series.time[k - 1] + a * (series.time[k] - series.time[k - 1]);
-      }
-    }
-    peaks.arrival.push_back(arrival);
-  }
-
-  const double depth = water && !thresholds.empty() ? thresholds.front() : 0;
+  Series heights{series.time, series.elevation}, change{series.time, series.elevation};
   for (std::size_t k = 0; k < n; ++k) {
-    const double z = height(k);
-    if (z < 0 && !(z >= peaks.first_trough)) peaks.first_trough = z, peaks.time_of_trough = series.time[k];
-    if (water && z >= 0) {
-      if (peaks.first_trough < -depth) break;
-      peaks.first_trough = peaks.time_of_trough = no_value;  // a ripple
-    }
+    heights.value[k] = height(k);
+    change.value[k] = water && series.initially_dry ? series.elevation[k] - series.bed : heights.value[k];
   }
-  if (!(peaks.first_trough < -depth)) peaks.first_trough = peaks.time_of_trough = no_value;
+  for (double threshold : thresholds) peaks.arrival.push_back(arrival_time(change, threshold));
+  const double depth = water && !thresholds.empty() ? thresholds.front() : 0;
+  const Extreme trough = water ? first_trough(heights, depth) : features_of(heights, depth).lowest;
+  if (trough.value < 0) peaks.first_trough = trough.value, peaks.time_of_trough = trough.time;
   return peaks;
 }
 

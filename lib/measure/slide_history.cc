@@ -133,7 +133,7 @@ SlideState SlideHistory::state(const Frame& frame) const {
 }
 
 SlideDeposit SlideHistory::deposit() const {
-  SlideDeposit deposit{no_value, no_value, no_value, no_value, no_value};
+  SlideDeposit deposit{no_value, no_value, no_value, no_value, no_value, no_value, no_value};
   const double dp = header_.particles.dp;
   const bool flat = header_.particles.dimension == 2;
   std::vector<std::array<double, 3>> points;
@@ -153,6 +153,17 @@ SlideDeposit SlideHistory::deposit() const {
   const std::array<double, 2> along = moved ? std::array<double, 2>{motion[0] / (runout * double(points.size())),
                                                                     motion[1] / (runout * double(points.size()))}
                                             : std::array<double, 2>{1, 0};
+  const auto front = [&](const float* r) {  // 99th percentile along the motion
+    std::vector<double> l(n_soil_);
+    for (std::size_t k = 0; k < n_soil_; ++k) l[k] = r[3 * k] * along[0] + (flat ? 0 : r[3 * k + 1] * along[1]);
+    const auto rank = std::ptrdiff_t(0.99 * double(n_soil_ - 1));
+    std::nth_element(l.begin(), l.begin() + rank, l.end());
+    return l[std::size_t(rank)];
+  };
+  const double front_now = front(last_.points.data() + 3 * first_);
+  deposit.front_runout = front_now - front(header_.initial_soil.data());
+  if (flat) deposit.front_x = front_now * along[0] + header_.particles.origin[0];
+
   std::array<double, 2> low{infinite, infinite}, high{-infinite, -infinite};
   double top = -infinite;
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -172,8 +183,7 @@ SlideDeposit SlideHistory::deposit() const {
   return deposit;
 }
 
-std::vector<float> SlideHistory::thickness() const {
-  const SurfaceMap& map = header_.map;
+std::vector<float> SlideHistory::thickness(const SurfaceMap& map) const {
   std::vector<double> volume(map.size(), 0);
   for (std::size_t k = 0; k < n_soil_; ++k) {
     if (!body_[k]) continue;

@@ -28,6 +28,9 @@ struct SlideDeposit {
   double length = 0, width = 0;   // m along and across that direction; width NaN in 2-D
   double height_above_water = 0;  // m above still water level
   double runout = 0;              // m that the centre moved in plan
+  /// Of all soil of the run: how far its 99th percentile along that direction has moved, m, and in 2-D where it is (x
+  /// in the case's CRS; NaN in 3-D). Free of single grains, as they splash farther at every refinement.
+  double front_runout = 0, front_x = 0;
 };
 
 /// Follows the slide of a run frame by frame.
@@ -45,7 +48,8 @@ class SlideHistory {
   /// Thickness of the slide at the end by map node, m: the volume of its particles, each shared out bilinearly among
   /// the four nodes around it, over the area of a cell. Sums to the slide's volume but for what lies beyond the map's
   /// edge.
-  std::vector<float> thickness() const;
+  std::vector<float> thickness() const { return thickness(header_.map); }
+  std::vector<float> thickness(const SurfaceMap& map) const;  // on other nodes; local coordinates of this run
   double total_volume() const;
 
  private:

@@ -5,53 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../tools/tool_runner.hh"
-#include "basin.hh"
+#include "measuring_tools.hh"
 
 namespace lgiw::test {
 namespace {
 
 using nlohmann::json;
-
-std::string utm_wkt() {
-  OGRSpatialReference crs;
-  crs.importFromEPSG(32611);
-  char* text = nullptr;
-  crs.exportToWkt(&text);
-  const std::string wkt = text;
-  CPLFree(text);
-  return wkt;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// A workshop with run.h5 in it.
-class MeasuringTools : public testing::Test {
- protected:
-  MeasuringTools() { write_basin_run((shop / "run.h5").string(), true, utm_wkt()); }
-
-  void expect_refused(const std::string& command, const std::string& message) {
-    const auto before = shop.contents();
-    const Outcome outcome = shop.run(command);
-    EXPECT_EQ(outcome.status, 2) << command;
-    EXPECT_EQ(outcome.err, message + "\n") << command;
-    EXPECT_EQ(outcome.out, "") << command;
-    EXPECT_EQ(shop.contents(), before) << command << " left something behind";
-  }
-
-  void make(const std::string& command) {
-    const Outcome outcome = shop.run(command);
-    expect_quiet_success(outcome, command);
-    EXPECT_EQ(outcome.out, "") << command;
-  }
-
-  Workshop shop;
-};
 
 TEST_F(MeasuringTools, GaugesWritesTheSeriesToStdout) {
   const Outcome outcome = shop.run("gauges run.h5 -q --no-provenance");
@@ -383,10 +342,10 @@ TEST_F(MeasuringTools, TwoDimensionsAndSoilAlone) {
 }
 
 TEST_F(MeasuringTools, HelpAndVersion) {
-  for (const std::string tool : {"gauges", "deposit-volume"}) {
+  for (const std::string tool : {"gauges", "deposit-volume", "convergence"}) {
     const Outcome help = shop.run(tool + " --help");
     EXPECT_EQ(help.status, 0);
-    EXPECT_NE(help.out.find("Example:\n  " + tool + " run.h5"), std::string::npos);
+    EXPECT_NE(help.out.find("Example:\n  " + tool + " "), std::string::npos);
     const Outcome version = shop.run(tool + " --version");
     EXPECT_EQ(version.status, 0);
     EXPECT_EQ(version.out.rfind(tool + " 0.1.0", 0), 0u);

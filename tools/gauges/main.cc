@@ -1,22 +1,20 @@
 // gauges: wave gauges, run-up and maps of a run.
 #include <gdal_version.h>
-#include <hdf5.h>
 #include <netcdf.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
-#include "base/atomic_file.hh"
 #include "base/error.hh"
 #include "base/tool_main.hh"
 #include "gauge_netcdf.hh"
+#include "measure/comparison.hh"
 #include "measure/csv_table.hh"
 #include "measure/gauge_series.hh"
 #include "measure/section_runup.hh"
@@ -29,15 +27,11 @@ namespace {
 using namespace lgiw;
 using nlohmann::ordered_json;
 
-const std::string hdf5_version =
-    std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
-
-struct Options {
-  std::string run, case_file, output, peaks, runup, netcdf, maps, summary;
+struct Options : MeasuringOptions {
+  std::string peaks, runup, netcdf, maps, pressure;
   std::vector<std::string> gauges;
   std::vector<double> thresholds;
-  bool long_form = false, heights = false;
-  CommonOptions common;
+  bool long_form = false, heights = false, compare_elevations = false;
 };
 
 /// What is measured in one pass over the surfaces of a run.
@@ -49,12 +43,15 @@ struct Measurements {
   double still_water_level = no_value;  // case datum
   double runup = no_value;              // the largest over the sections
   double shore_runup = no_value;        // with --maps
+  std::vector<ComparisonRow> comparison;
+  std::vector<std::pair<std::string, Series>> pressures;  // of the pressure gauges, Pa
+  double pressure_threshold = no_value;                   // Pa: the first threshold as a column of water
 };
 
 std::string library_versions() {
   std::string netcdf = nc_inq_libvers();
   netcdf = netcdf.substr(0, netcdf.find(' '));
-  return std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version + ", netCDF " + netcdf;
+  return std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version() + ", netCDF " + netcdf;
 }
 
 /// "name,x,y", in 2-D also "name,x".
@@ -150,7 +147,7 @@ CsvTable runup_table(const std::vector<SectionRunup>& sections, const std::vecto
   return table;
 }
 
-ordered_json summary_json(const Measurements& m, const Provenance& provenance) {
+ordered_json summary_json(const Measurements& m) {
   ordered_json summary;
   summary["gauges"] = ordered_json::array();
   for (std::size_t g = 0; g < m.gauges.size(); ++g) {
@@ -170,6 +167,12 @@ ordered_json summary_json(const Measurements& m, const Provenance& provenance) {
     summary["gauges"].push_back(std::move(gauge));
   }
   summary["still_water_level_m"] = m.still_water_level;
+  if (!m.pressures.empty()) summary["pressure_gauges"] = ordered_json::array();
+  for (const auto& [name, series] : m.pressures) {
+    const Extreme highest = features_of(series, m.pressure_threshold).highest;
+    summary["pressure_gauges"].push_back(
+        {{"name", name}, {"max_pressure_pa", highest.value}, {"time_of_max_s", highest.time}});
+  }
   summary["runup_m"] = m.runup;
   summary["sections"] = ordered_json::array();
   for (const SectionRunup& s : m.sections)
@@ -178,8 +181,103 @@ ordered_json summary_json(const Measurements& m, const Provenance& provenance) {
                                    {"runup_elevation_m", s.max_elevation},
                                    {"time_of_runup_s", s.time_of_max}});
   if (!std::isnan(m.shore_runup)) summary["shore_runup_m"] = m.shore_runup;
-  if (provenance.enabled) summary["provenance"]["gauges"] = ordered_json::parse(provenance.to_json());
+  if (!m.comparison.empty()) summary["comparison"] = comparison_json(m.comparison);
   return summary;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? "none" : text;
+}
+
+CsvTable pressure_table(const std::vector<std::pair<std::string, Series>>& pressures) {
+  std::vector<std::string> header{"time_s"};
+  for (const auto& [name, series] : pressures) header.push_back(name);
+  CsvTable table(header);
+  for (std::size_t k = 0; k < pressures.front().second.time.size(); ++k) {
+    table.add(pressures.front().second.time[k]);
+    for (const auto& [name, series] : pressures) table.add(series.value[k]);
+  }
+  return table;
+}
+
+/// The references of --compare; refuses what the run has nothing to set against.
+std::vector<SeriesReference> chosen_references(const Options& options, const std::vector<GaugeSeries>& gauges,
+                                               const std::vector<Section>& sections, const RunReader& run) {
+  const std::vector<double>& times = run.surface_times();
+  std::vector<std::string> gauge_names, section_names;
+  for (const GaugeSeries& s : gauges) gauge_names.push_back(s.gauge.name);
+  for (const std::string& name : run.header().pressure_gauges) {
+    LGIW_VALIDATE(
+        options.compare.empty() || std::find(gauge_names.begin(), gauge_names.end(), name) == gauge_names.end(),
+        "two gauges are named " + name, "one of them measures pressure", "give the other another name");
+    gauge_names.push_back(name);
+  }
+  for (const Section& s : sections) section_names.push_back(s.name);
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<SeriesReference> references;
+  std::set<std::string> seen;
+  for (const std::string& file : options.compare) {
+    references.push_back(series_reference(read_csv(file)));
+    const SeriesReference& reference = references.back();
+    std::vector<std::string> unknown;
+    for (const auto& [name, series] : reference.series) {
+      const bool gauge = has(gauge_names, name), section = has(section_names, name);
+      if (!gauge && !section) unknown.push_back(name);
+      LGIW_VALIDATE(!gauge || !section, reference.file + ": " + name + " is both a gauge and a section",
+                    "it is not plain which of them was measured", "rename one of them in the case");
+      LGIW_VALIDATE(seen.insert(name).second, reference.file + ": " + name + " has a reference already",
+                    "each gauge and section has one", "leave one of them out");
+    }
+    LGIW_VALIDATE(unknown.empty(), reference.file + ": the run has no gauge or section " + joined(unknown),
+                  "its gauges are " + joined(gauge_names) + " and its sections " + joined(section_names),
+                  "name the columns as the case does");
+    for (const auto& [name, series] : reference.series) {
+      std::ostringstream spans;
+      spans << "it is from " << series.time.front() << " s to " << series.time.back() << " s, the run's surfaces from "
+            << times.front() << " s to " << times.back() << " s";
+      LGIW_VALIDATE(series.time.front() < times.back() && series.time.back() > times.front(),
+                    reference.file + ": " + name + " shares no time with the run", spans.str(),
+                    "give times since the start of the run, in s");
+    }
+  }
+  return references;
+}
+
+/// Surfaces as heights above their reference level, m; pressures in Pa.
+std::vector<ComparisonRow> compare_with(const std::vector<SeriesReference>& references, const Measurements& m,
+                                        bool elevations) {
+  std::vector<ComparisonRow> rows;
+  std::vector<double> runups, reference_runups;
+  const auto append = [&](const std::vector<ComparisonRow>& more) {
+    rows.insert(rows.end(), more.begin(), more.end());
+  };
+  const auto compare = [&](const std::string& name, Series run, Series reference, double level) {
+    for (double& z : run.value) z -= level;
+    if (elevations)
+      for (double& z : reference.value) z -= level;
+    const SeriesNorms norms = compare_series(run, reference, m.thresholds.front());
+    append(series_rows(name, "m", norms));
+    return norms;
+  };
+  for (const SeriesReference& file : references)
+    for (const auto& [name, reference] : file.series) {
+      for (const GaugeSeries& s : m.gauges)
+        if (s.gauge.name == name) compare(name, {s.time, s.elevation}, reference, s.reference);
+      for (const auto& [gauge, pressure] : m.pressures)
+        if (gauge == name) append(series_rows(name, "Pa", compare_series(pressure, reference, m.pressure_threshold)));
+      for (const SectionRunup& s : m.sections) {
+        if (s.name != name) continue;
+        const SeriesNorms norms = compare(name, {s.time, s.elevation}, reference, m.still_water_level);
+        runups.push_back(norms.run.highest.value), reference_runups.push_back(norms.reference.highest.value);
+      }
+    }
+  // Of one ratio there is nothing to take a mean of.
+  if (runups.size() > 1) append(aida_rows(aida_numbers(runups, reference_runups)));
+  return rows;
 }
 
 int run(const Options& options, const std::string& command) {
@@ -197,6 +295,8 @@ int run(const Options& options, const std::string& command) {
   LGIW_VALIDATE(options.runup.empty() || !c.sections.empty(), "there is no section",
                 "run-up is followed along sections, from the slide to the opposite bank",
                 "add sections to the case and pass it with --case");
+  LGIW_VALIDATE(options.pressure.empty() || !header.pressure_gauges.empty(), options.run + " has no pressure gauges",
+                "they are recorded while the case runs", "give gauges of the case quantity: pressure and run it again");
   for (double threshold : options.thresholds)
     LGIW_VALIDATE(std::isfinite(threshold) && threshold > 0, "--thresholds has " + std::to_string(threshold),
                   "a threshold is a change of the surface in m", "give numbers above 0");
@@ -207,36 +307,32 @@ int run(const Options& options, const std::string& command) {
   Measurements m;
   m.still_water_level = particles.still_water_level + particles.origin[2];
   m.thresholds = {arrival_threshold(c, particles.dp)};
+  m.pressure_threshold = c.water.density * std::abs(c.gravity[2]) * m.thresholds.front();
   for (double threshold : options.thresholds)
     if (threshold != m.thresholds.front()) m.thresholds.push_back(threshold);
   GaugeRecorder gauges(header, chosen_gauges(options, c, particles));
 
-  std::vector<std::string> outputs{options.peaks, options.runup, options.netcdf, options.summary};
+  const std::vector<SeriesReference> references =
+      chosen_references(options, gauges.series(), has_water ? c.sections : std::vector<Section>{}, run);
+
+  std::vector<std::string> outputs{options.peaks, options.runup, options.netcdf, options.summary, options.pressure};
   const bool other_outputs = options.common.json || !options.maps.empty() ||
                              std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return !o.empty(); });
-  const std::string output = !options.output.empty()                                             ? options.output
-                             : options.common.json || (other_outputs && gauges.series().empty()) ? ""
-                                                                                                 : "-";
+  const bool stdout_used =
+      options.common.json || !options.compare.empty() || (other_outputs && gauges.series().empty());
+  const std::string output = !options.output.empty() ? options.output : stdout_used ? "" : "-";
   LGIW_VALIDATE(!gauges.series().empty() || (output.empty() && options.peaks.empty() && options.netcdf.empty()),
                 "there is no gauge", "the case names none", "add gauges to the case or pass --gauge name,x,y");
-  outputs.insert(outputs.begin(), output);
-  std::vector<std::string> inputs{options.run};
-  if (!options.case_file.empty() && options.case_file != "-") inputs.push_back(options.case_file);
-  check_outputs(outputs, inputs, options.common.overwrite, options.common.json);
+  outputs.insert(outputs.begin(), {output, options.comparison_output()});
+  std::vector<std::string> inputs{options.run, options.case_file};
+  inputs.insert(inputs.end(), options.compare.begin(), options.compare.end());
+  ToolOutputs results("gauges", command, options.common, inputs);
+  results.check(outputs);
   if (!options.maps.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.maps, error);
-    LGIW_VALIDATE(std::filesystem::is_directory(options.maps), options.maps + " cannot be made a folder",
-                  error ? error.message() : "a file has that name", "name another folder");
-    check_outputs(wave_map_files(options.maps, options.thresholds), inputs, options.common.overwrite, false);
+    make_folder(options.maps);
+    results.check_files(wave_map_files(options.maps, options.thresholds));
   }
-
-  Provenance provenance;
-  provenance.enabled = options.common.provenance;
-  provenance.tool = "gauges";
-  provenance.version = version_string();
-  provenance.command_line = command;
-  for (const std::string& input : inputs) provenance.add_input(input);
+  results.hash_inputs();
 
   RunupRecorder runup(header, has_water ? c.sections : std::vector<Section>{});
   ArrivalMap arrivals(header, options.maps.empty() ? std::vector<double>{} : options.thresholds);
@@ -263,23 +359,26 @@ int run(const Options& options, const std::string& command) {
                 << "its level) let it end there\n";
   }
 
-  const std::string comment = provenance.enabled ? "provenance: " + provenance.to_json() : "";
-  const auto write = [&](const std::string& path, const CsvTable& table) {
-    if (!path.empty()) write_text_file(path, table.text(comment), options.common.overwrite);
-  };
-  write(output,
-        options.long_form ? long_table(m.gauges) : series_table(m.gauges, run.surface_times(), options.heights));
-  write(options.peaks, peaks_table(m));
-  write(options.runup, runup_table(m.sections, run.surface_times(), m.still_water_level));
+  for (std::size_t g = 0; g < header.pressure_gauges.size(); ++g) {
+    const std::vector<float> pressure = run.pressure(g);
+    m.pressures.push_back({header.pressure_gauges[g], {run.surface_times(), {pressure.begin(), pressure.end()}}});
+  }
+  m.comparison = compare_with(references, m, options.compare_elevations);
+
+  results.write(
+      output, options.long_form ? long_table(m.gauges) : series_table(m.gauges, run.surface_times(), options.heights));
+  results.write(options.peaks, peaks_table(m));
+  results.write(options.runup, runup_table(m.sections, run.surface_times(), m.still_water_level));
+  if (!options.pressure.empty()) results.write(options.pressure, pressure_table(m.pressures));
+  if (!options.compare.empty()) results.write(options.comparison_output(), comparison_table(m.comparison));
+  const Provenance& provenance = results.provenance();
   if (!options.netcdf.empty())
     write_gauge_netcdf(options.netcdf, particles, m.gauges, c.name, provenance.enabled ? provenance.to_json() : "",
                        options.common.overwrite);
   if (!options.maps.empty())
     m.shore_runup =
         write_wave_maps(options.maps, run, first_water, arrivals, m.gauges, m.peaks, options.common.overwrite);
-  const ordered_json summary = summary_json(m, provenance);
-  if (!options.summary.empty()) write_text_file(options.summary, summary.dump(2) + "\n", options.common.overwrite);
-  if (options.common.json) std::cout << summary.dump(2) << "\n";
+  results.summarise(options.summary, summary_json(m));
   return 0;
 }
 
@@ -292,12 +391,15 @@ int main(int argc, char** argv) {
       "still\n"
       "water level; a gauge that starts on soil follows the soil surface, its heights are changes since the start.",
       "gauges");
-  app.add_option("run", options.run, "Run file, as lgiw-run writes it")->required()->type_name("RUN.h5");
+  add_measuring_options(
+      app, options, "gauges and sections", "Gauges, run-up and comparison as JSON",
+      "Measured series (CSV): time_s (or t_s) and a column of heights above still water level a gauge, or of run-up a "
+      "section, named as in the case; on soil changes since the start; of a pressure gauge Pa. May be repeated");
+  app.add_flag("--compare-elevations", options.compare_elevations,
+               "The measured series are elevations in the case's vertical datum")
+      ->needs("--compare")
+      ->group("Comparison with measurements");
   const std::string measured = "What is measured";
-  app.add_option("--case", options.case_file,
-                 "Take gauges and sections from this case file, not from the run's own case")
-      ->type_name("FILE")
-      ->group(measured);
   app.add_option("--gauge", options.gauges, "A gauge instead of the case's ones; may be repeated")
       ->type_name("NAME,X,Y")
       ->allow_extra_args(false)
@@ -309,8 +411,9 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false)
       ->group(measured);
   const std::string outputs = "Outputs";
-  app.add_option("-o,--output", options.output,
-                 "Table of the surface at the gauges against time (CSV); stdout without -o or with -")
+  app.add_option(
+         "-o,--output", options.output,
+         "Table of the surface at the gauges against time (CSV); stdout without -o (but for a comparison) or with -")
       ->type_name("FILE")
       ->group(outputs);
   auto* long_form = app.add_flag("--long", options.long_form,
@@ -325,16 +428,20 @@ int main(int argc, char** argv) {
   app.add_option("--runup", options.runup, "Table of the run-up on the opposite bank by section against time (CSV)")
       ->type_name("FILE")
       ->group(outputs);
+  app.add_option("--pressure", options.pressure,
+                 "Table of the pressure at the case's pressure gauges against time (CSV, Pa)")
+      ->type_name("FILE")
+      ->group(outputs);
   app.add_option("--netcdf", options.netcdf, "The series as CF timeSeries netCDF")->type_name("FILE")->group(outputs);
   app.add_option("--maps", options.maps,
                  "Folder for GeoTIFFs of the maxima and wave.gpkg with shoreline, run-up along it and inundation")
       ->type_name("FOLDER")
       ->group(outputs);
-  app.add_option("--summary", options.summary, "Gauges and run-up as JSON")->type_name("FILE")->group(outputs);
   add_common_options(app, options.common, library_versions());
   app.footer(
       "Example:\n  gauges run.h5 -o gauges.csv --peaks peaks.csv --runup runup.csv --maps maps --thresholds 0.5,1\n"
-      "  gauges run.h5 --gauge P1,389450,3794050 --heights");
+      "  gauges run.h5 --gauge P1,389450,3794050 --heights\n"
+      "  gauges run.h5 --compare measured.csv --compare-output comparison.csv");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });
 }
