@@ -201,8 +201,10 @@ class Validator {
     for (const std::string& key : solitary ? standing_keys : solitary_keys)
       refuse_if(given("water.wave." + key), "water.wave." + key, "water.wave." + key + " has no meaning here",
                 solitary ? "the wave is solitary" : "the wave is standing", "leave it out");
-    if (!solitary) return;
-    check_inside("water.wave.crest", "water.wave.crest", {wave.crest, 0}, false);
+    if (solitary) check_inside("water.wave.crest", "water.wave.crest", {wave.crest, 0}, false);
+    refuse_if(c_.slide.present || !c_.bodies.empty(), "water.wave",
+              std::string("water.wave with ") + (c_.slide.present ? "a slide" : "bodies"),
+              "initial waves are those of undisturbed water", "leave one of the two out");
   }
 
   void check_slide() const {

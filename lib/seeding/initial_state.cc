@@ -8,14 +8,15 @@ namespace lgiw {
 
 double vertical_gravity(const Case& c) { return std::abs(c.gravity[2]); }
 
-double water_sound_speed(const Case& c, double max_depth, double drop_height) {
+double water_sound_speed(const Case& c, double max_depth, double drop_height, double body_speed) {
   if (!c.water.present) return 0;
   if (c.water.sound_speed > 0) return c.water.sound_speed;
   const double g = vertical_gravity(c), wave_speed = std::sqrt(g * std::max(max_depth, c.dp));
-  double slide_speed = 0;
-  if (c.slide.present) {
+  double slide_speed = body_speed;
+  if (c.has_soil()) {
     const double friction = std::tan(c.soil.friction_angle * std::numbers::pi / 180);
-    slide_speed = std::sqrt(2 * g * std::max(drop_height, 0.0) * std::max(1 - friction, 0.0));
+    slide_speed = std::max({slide_speed, std::sqrt(2 * g * std::max(drop_height, 0.0) * std::max(1 - friction, 0.0)),
+                            std::hypot(c.slide.velocity[0], c.slide.velocity[1], c.slide.velocity[2])});
   }
   return 10 * std::max(2 * wave_speed, std::min(slide_speed, 3 * wave_speed));
 }

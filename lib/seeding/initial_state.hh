@@ -15,9 +15,9 @@ double vertical_gravity(const Case& c);
 /// varies by 1 % at most (physics.md section 2). That speed is the larger of 2 sqrt(g d), the dam-break speed over the
 /// deepest water d = max_depth (which makes 20 sqrt(g d)), and the speed with which the slide enters after its centre
 /// has fallen drop_height (m, above the still water) along a slope of 45 degrees against its friction, sqrt(2 g H (1 -
-/// tan phi)), this one capped at 3 sqrt(g d): water shallower than the slide is fast only splashes. Returns 0 without
-/// water.
-double water_sound_speed(const Case& c, double max_depth, double drop_height);
+/// tan phi)), or its initial speed, or that of the fastest rigid body (body_speed, m/s); this one capped at 3 sqrt(g
+/// d): water shallower than the slide is fast only splashes. Returns 0 without water.
+double water_sound_speed(const Case& c, double max_depth, double drop_height, double body_speed = 0);
 
 /// Density at pressure p (Pa) of the Tait equation p = c^2 rho0/7 ((rho/rho0)^7 - 1), kg/m3.
 double water_density(double pressure, double reference_density, double sound_speed);

@@ -45,8 +45,9 @@ void cut_out(std::vector<PhaseInterval>& water, double low, double high) {
 
 }  // namespace
 
-PhaseColumns::PhaseColumns(const Case& c, const TerrainModel& model, const MapCells& cells, const BedSurface& bed)
-    : model_(model), cells_(cells), highest_(std::numeric_limits<double>::quiet_NaN()) {
+PhaseColumns::PhaseColumns(const Case& c, const TerrainModel& model, const MapCells& cells, const BedSurface& bed,
+                           const InitialWave& wave)
+    : model_(model), cells_(cells), wave_(wave), highest_(std::numeric_limits<double>::quiet_NaN()) {
   water_weight_ = c.water.density * vertical_gravity(c);
   level_water_ = c.water.present && c.water.bodies.empty();
   level_ = model.still_water_level;
@@ -54,10 +55,14 @@ PhaseColumns::PhaseColumns(const Case& c, const TerrainModel& model, const MapCe
   raster_soil_ = c.slide.present && c.slide.bodies.empty();
 
   lattices_.push_back({0, level_water_ ? level_ : bed.lowest()});
-  add_bodies(c.slide.bodies, !level_water_, soil_);
+  rigid_slide_ = c.slide.motion.has_value();
+  if (rigid_slide_)
+    for (const auto& polygon : c.slide.bodies) add_outline(polygon, slide_body);
+  for (std::size_t k = 0; k < c.bodies.size(); ++k) add_outline(c.bodies[k].outline, int(k));
+  if (!rigid_slide_) add_bodies(c.slide.bodies, !level_water_, soil_);
   if (c.water.present) add_bodies(c.water.bodies, !level_water_, water_);
 
-  if (level_water_) highest_ = level_;
+  if (level_water_) highest_ = level_ + wave.highest();
   const auto raise = [&](double z) { highest_ = std::isnan(highest_) ? z : std::max(highest_, z); };
   for (const auto* bodies : {&soil_, &water_})
     for (const Body& body : *bodies)
@@ -65,6 +70,14 @@ PhaseColumns::PhaseColumns(const Case& c, const TerrainModel& model, const MapCe
   if (raster_soil_)
     for (std::size_t n = 0; n < model.slide.size(); ++n)
       if (model.slide[n]) raise(model.ground.z[n]);
+}
+
+void PhaseColumns::add_outline(const std::vector<Point2>& given, int number) {
+  Outline outline;
+  for (const Point2& p : given) outline.polygon.push_back({p[0] - model_.origin[0], p[1] - model_.origin[2]});
+  outline.body = number;
+  soil_.push_back({outline.polygon, apart, int(outlines_.size()), outline.rigid()});
+  outlines_.push_back(std::move(outline));
 }
 
 void PhaseColumns::add_bodies(const std::vector<std::vector<Point2>>& polygons, bool own_lattice,
@@ -82,6 +95,10 @@ void PhaseColumns::add_bodies(const std::vector<std::vector<Point2>>& polygons, 
       if (std::abs(offset) < 1e-6) offset = 0;
       body.lattice = int(lattices_.size());
       lattices_.push_back({offset * dp, z_low});
+    }
+    if (&bodies == &soil_ && body.lattice == 0) {
+      add_outline(given, -1);
+      continue;
     }
     bodies.push_back(std::move(body));
   }
@@ -105,27 +122,30 @@ bool PhaseColumns::wet_at(double x, double y) const {
   return wet;
 }
 
-void PhaseColumns::at(double x, double y, double bed, std::vector<PhaseInterval>& column) const {
+void PhaseColumns::at(double x, double y, double bed, std::vector<PhaseInterval>& column, bool with_outlines) const {
   column.clear();
   thread_local std::vector<double> heights;
   thread_local std::vector<PhaseInterval> water;
   water.clear();
 
   // Soil first: in overlapping bodies the one given first.
-  const auto add_soil = [&](double low, double high, int lattice) {
+  const auto add_soil = [&](double low, double high, int lattice, bool rigid, int outline) {
     low = std::max(low, bed);
     for (const PhaseInterval& other : column)
       if (low < other.high && high > other.low)
         (low < other.low ? high : low) = (low < other.low ? other.low : other.high);
-    if (high > low) column.push_back({Phase::soil, low, high, 0, 0, lattice});
+    if (high > low) column.push_back({Phase::soil, low, high, 0, 0, lattice, rigid, outline});
   };
   for (const Body& body : soil_) {
+    if (!with_outlines && body.lattice == apart) continue;
     crossings(body.polygon, x, heights);
-    for (std::size_t k = 0; k + 1 < heights.size(); k += 2) add_soil(heights[k], heights[k + 1], body.lattice);
+    for (std::size_t k = 0; k + 1 < heights.size(); k += 2)
+      add_soil(heights[k], heights[k + 1], body.lattice, body.rigid, body.outline);
   }
-  if (raster_soil_) add_soil(bed, model_.ground.height(x, y), 0);
+  if (raster_soil_) add_soil(bed, model_.ground.height(x, y), rigid_slide_ ? apart : 0, rigid_slide_, -1);
 
-  if (level_water_ && level_ > bed && wet_at(x, y)) water.push_back({Phase::water, bed, level_, level_, 0, 0});
+  const double surface = level_water_ ? level_ + wave_.elevation(x) : 0;
+  if (level_water_ && surface > bed && wet_at(x, y)) water.push_back({Phase::water, bed, surface, surface, 0, 0});
   for (const Body& body : water_) {
     crossings(body.polygon, x, heights);
     for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {

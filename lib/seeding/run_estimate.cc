@@ -10,7 +10,7 @@ namespace lgiw {
 double default_particle_rate(int dimension) { return dimension == 2 ? 5e6 : 1.5e6; }
 
 double soil_sound_speed(const Case& c) {
-  if (!c.slide.present) return 0;
+  if (!c.has_soil()) return 0;
   const double e = c.soil.young_modulus, nu = c.soil.poisson_ratio;
   const double bulk = e / (3 * (1 - 2 * nu)), shear = e / (2 * (1 + nu));
   return std::sqrt((bulk + 4 * shear / 3) / c.soil.density);
@@ -30,7 +30,7 @@ RunEstimate estimate_run(const Case& c, const SeedingReport& report, double soun
   const double number = c.numerics.precision == Precision::double_ ? 8 : 4, stresses = c.dimension == 2 ? 4 : 6;
   const double water = 2 * position * d + number * (3 * d + 4) + 16;
   const double soil = 2 * position * d + number * (3 * d + 2 * stresses + 4) + 16;
-  const double wall = number * (2 * d + 4 + (c.slide.present ? d + stresses : 0)) + 4;
+  const double wall = number * (2 * d + 4 + (c.has_soil() ? d + stresses : 0)) + 4;
   estimate.memory_bytes =
       double(report.counts.water) * water + double(report.counts.soil) * soil + double(report.counts.wall) * wall + 6e7;
   return estimate;

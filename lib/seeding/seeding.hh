@@ -18,6 +18,7 @@ struct SeedingReport {
   ParticleCounts counts;
   double water_volume = 0, soil_volume = 0, wall_volume = 0;  // of the particles
   double water_expected = 0, soil_expected = 0;               // between bed, soil top and still water, integrated
+  std::vector<double> body_volumes;                           // of ParticleHeader::bodies, of the particles
   double max_water_depth = 0, slide_drop_height = 0;          // m; what the automatic sound speed rests on
   double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
 };
@@ -37,14 +38,28 @@ struct SeedingReport {
 /// nearest wall 0.84 dp for water and 0.60 dp for soil (beside the steps of a failure surface). Plain lattice points
 /// above the bed instead err by 2 % in volume over flat beds and stand anywhere from 0 to 1 dp above it.
 ///
+/// Rigid bodies that move (slide.motion, bodies) are particles of wall, kind 2. Of outlines they are tiled as
+/// lib/seeding/rigid_tiling.hh has it, over the whole width. A rigid slide of a DEM is divided into columns and layers
+/// as walls are, downwards from the ground; the last layer of a column is what is left (less than 0.3 of a layer joins
+/// the one above), and the volumes are scaled to that of the terrain. Water settles on such a slide as on the bed.
+///
+/// Around outlines (rigid ones, and soil as lib/seeding/outline_filling.hh fills it) water starts from its lattice: of
+/// the cells that an outline cuts so many keep a particle that the volume is kept, and if there are any, the water
+/// within `packed_layers` dp is packed (lib/seeding/packing.hh); what comes nearer than dp/2 to other particles goes.
+///
+/// With water.wave the column under eta has round(eta / dp) more layers than the one at rest and is stretched from the
+/// bed to end at eta exactly, with the volumes of its particles: free surface and volume are continuous, whatever dp.
+///
 /// The order is water, soil, wall, each row by row of map columns from the south-west, in a column upwards (walls
-/// downwards): it depends neither on the tile size nor on the number of threads.
+/// downwards), rigid bodies of outlines last: it depends neither on the tile size nor on the number of threads.
 class Seeder {
  public:
   static constexpr int settled_layers = 8;
   static constexpr double nearest_wall = 0.35;
+  static constexpr double packed_layers = 5;
 
-  /// `model` must outlive the seeder. Throws InputError for cases without terrain or with more than 2e9 particles.
+  /// `model` must outlive the seeder. Throws InputError for cases without terrain or with more than 2e9 particles, and
+  /// for motion files that are unsound.
   Seeder(const Case& c, const TerrainModel& model);
   ~Seeder();
 

@@ -78,11 +78,11 @@ Walls::Walls(const Case& c, const TerrainModel& model, const MapCells& cells, co
           nodes[nearest(cells.y(j), f.y0, f.ny) * f.nx + nearest(cells.x(i), f.x0, f.nx)];
 }
 
-Walls::Columns Walls::subdivision(const std::array<double, 2>& gradient) const {
+std::array<int64_t, 2> Walls::subdivision(const std::array<double, 2>& gradient, bool two_d) {
   const auto parts = [](double slope) {
     return std::max<int64_t>(1, int64_t(std::ceil(std::sqrt(1 + slope * slope) - 0.25 - 1e-9)));
   };
-  return {parts(gradient[0]), cells_.two_d ? 1 : parts(gradient[1])};
+  return {parts(gradient[0]), two_d ? 1 : parts(gradient[1])};
 }
 
 /// Calls visit(dx, dy, z) for points of the surface around (x, y): of each map cell within `reach` its centre and its
@@ -156,11 +156,11 @@ int64_t Walls::column(int64_t i, int64_t j, std::vector<WallParticle>& particles
 
 void Walls::bed_column(int64_t i, int64_t j, std::vector<WallParticle>& particles) const {
   const double dp = cells_.dp, dz_tolerance = layer_tolerance;
-  const Columns parts = subdivision(bed_.gradient(cells_.x(i), cells_.y(j)));
-  const double step_x = dp / double(parts.x), step_y = dp / double(parts.y);
+  const std::array<int64_t, 2> parts = subdivision(bed_.gradient(cells_.x(i), cells_.y(j)), cells_.two_d);
+  const double step_x = dp / double(parts[0]), step_y = dp / double(parts[1]);
   const int64_t plain_layers = int64_t(std::ceil(thickness_ / dp - 1e-9));
-  for (int64_t b = 0; b < parts.y; ++b)
-    for (int64_t a = 0; a < parts.x; ++a) {
+  for (int64_t b = 0; b < parts[1]; ++b)
+    for (int64_t a = 0; a < parts[0]; ++a) {
       const double x = cells_.x(i) + (double(a) + 0.5) * step_x - 0.5 * dp;
       const double y = cells_.two_d ? 0.0 : cells_.y(j) + (double(b) + 0.5) * step_y - 0.5 * dp;
       const double height = bed_.height(x, y);

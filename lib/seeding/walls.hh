@@ -36,12 +36,10 @@ class Walls {
   /// Appends the particles of column (i, j) and returns how many more nothing can reach and are therefore left out.
   int64_t column(int64_t i, int64_t j, std::vector<WallParticle>& particles) const;
   double side_top() const { return side_top_; }
+  /// Sub-columns {nx, ny} of a map cell over a surface of this gradient.
+  static std::array<int64_t, 2> subdivision(const std::array<double, 2>& gradient, bool two_d);
 
  private:
-  struct Columns {
-    int64_t x = 1, y = 1;
-  };
-  Columns subdivision(const std::array<double, 2>& gradient) const;
   double bottom(double x, double y, double height) const;
   std::array<double, 3> towards_open_space(const std::array<double, 3>& p, double depth,
                                            const std::array<double, 3>& otherwise) const;

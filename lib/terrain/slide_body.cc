@@ -192,7 +192,8 @@ SlideBody make_slide(const Case& c, const HeightField& ground, const OGRSpatialR
   SlideBody body;
   body.bed = ground.z;
   body.mask.assign(ground.z.size(), 0);
-  const double cell = ground.dx * ground.dx, thinnest = c.slide.min_thickness > 0 ? c.slide.min_thickness : 0.5 * c.dp;
+  const double cell = ground.dx * ground.dx, // Rigid bodies are not made of whole particles.
+               thinnest = c.slide.min_thickness > 0 ? c.slide.min_thickness : (c.slide.motion ? 0.05 : 0.5) * c.dp;
   double thickest = -HUGE_VAL, thin_volume = 0;
   int64_t thin_cells = 0;
   for (std::size_t k = 0; k < ground.z.size(); ++k) {

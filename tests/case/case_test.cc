@@ -47,41 +47,45 @@ TEST(Case, MinimalCaseHasTheDefaultsOfTheHeader) {
 
 TEST(Case, ReadsWavesMotionsAndMovingBodies) {
   const std::string flume = "name: f\ndimension: 2\nparticle_spacing: 0.01\nterrain: {profile: [[0, 0], [10, 0]]}\n";
-  const Case solitary = parse_case(flume + R"(
-water: {level: 0.5, wave: {kind: solitary, height: 0.1, crest: 4, direction: east}}
+  const Case moving = parse_case(flume + R"(
+water: {level: 0.5}
 slide: {bodies: [[[1, 0], [2, 0], [2, 1]]], velocity: [1.5, -2]}
 bodies:
 - {name: plate, outline: [[3, 0], [3.1, 0], [3.1, 1], [3, 1], [3, 0]], motion: m/plate.csv}
 - {name: gate, outline: [[5, 0], [6, 0], [6, 1]], motion: gate.csv, pivot: [5.5, 2]}
 )",
-                                   "c.yaml");
-  ASSERT_TRUE(solitary.water.wave);
-  EXPECT_EQ(solitary.water.wave->kind, WaveKind::solitary);
-  EXPECT_EQ(solitary.water.wave->height, 0.1);
-  EXPECT_EQ(solitary.water.wave->crest, 4);
-  EXPECT_TRUE(solitary.water.wave->eastwards);
-  EXPECT_EQ(solitary.slide.velocity, (std::array<double, 3>{1.5, 0, -2}));
-  EXPECT_TRUE(solitary.has_soil());
-  ASSERT_EQ(solitary.bodies.size(), 2u);
-  EXPECT_EQ(solitary.bodies[0].name, "plate");
-  EXPECT_EQ(solitary.bodies[0].outline.size(), 4u) << "the repeated first point goes";
-  EXPECT_EQ(solitary.bodies[0].motion, "m/plate.csv");
-  EXPECT_FALSE(solitary.bodies[0].pivot);
-  EXPECT_EQ(*solitary.bodies[1].pivot, (Point2{5.5, 2}));
+                                 "c.yaml");
+  const Case wavy = parse_case(
+      flume + "water: {level: 0.5, wave: {kind: solitary, height: 0.1, crest: 4, direction: east}}\n", "c.yaml");
+  ASSERT_TRUE(wavy.water.wave);
+  EXPECT_EQ(wavy.water.wave->kind, WaveKind::solitary);
+  EXPECT_EQ(wavy.water.wave->height, 0.1);
+  EXPECT_EQ(wavy.water.wave->crest, 4);
+  EXPECT_TRUE(wavy.water.wave->eastwards);
+  EXPECT_EQ(moving.slide.velocity, (std::array<double, 3>{1.5, 0, -2}));
+  EXPECT_TRUE(moving.has_soil());
+  ASSERT_EQ(moving.bodies.size(), 2u);
+  EXPECT_EQ(moving.bodies[0].name, "plate");
+  EXPECT_EQ(moving.bodies[0].outline.size(), 4u) << "the repeated first point goes";
+  EXPECT_EQ(moving.bodies[0].motion, "m/plate.csv");
+  EXPECT_FALSE(moving.bodies[0].pivot);
+  EXPECT_EQ(*moving.bodies[1].pivot, (Point2{5.5, 2}));
 
-  const Case standing = parse_case(flume + R"(
-water: {level: 0.5, wave: {kind: standing, amplitude: 0.02, mode: 3}}
+  const Case rigid = parse_case(flume + R"(
+water: {level: 0.5}
 slide: {bodies: [[[1, 0], [2, 0], [2, 1]]], motion: {file: m.csv, pivot: [1.5, 0.5], heading: 270}}
 )",
-                                   "c.yaml");
-  EXPECT_EQ(standing.water.wave->kind, WaveKind::standing);
-  EXPECT_EQ(standing.water.wave->amplitude, 0.02);
-  EXPECT_EQ(standing.water.wave->mode, 3);
-  ASSERT_TRUE(standing.slide.motion);
-  EXPECT_FALSE(standing.has_soil());
-  EXPECT_EQ(standing.slide.motion->file, "m.csv");
-  EXPECT_EQ(*standing.slide.motion->pivot, (std::array<double, 3>{1.5, 0, 0.5}));
-  EXPECT_EQ(standing.slide.motion->heading, 270);
+                                "c.yaml");
+  const Case still =
+      parse_case(flume + "water: {level: 0.5, wave: {kind: standing, amplitude: 0.02, mode: 3}}\n", "c.yaml");
+  EXPECT_EQ(still.water.wave->kind, WaveKind::standing);
+  EXPECT_EQ(still.water.wave->amplitude, 0.02);
+  EXPECT_EQ(still.water.wave->mode, 3);
+  ASSERT_TRUE(rigid.slide.motion);
+  EXPECT_FALSE(rigid.has_soil());
+  EXPECT_EQ(rigid.slide.motion->file, "m.csv");
+  EXPECT_EQ(*rigid.slide.motion->pivot, (std::array<double, 3>{1.5, 0, 0.5}));
+  EXPECT_EQ(rigid.slide.motion->heading, 270);
 }
 
 TEST(Case, ReadsEveryKindOfValue) {

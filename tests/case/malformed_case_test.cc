@@ -391,6 +391,9 @@ INSTANTIATE_TEST_SUITE_P(
                "level: 0.1\n  wave: {kind: solitary, height: 0.01, crest: 3, direction: east}",
                "c.yaml:8: water.wave.crest lies outside the domain ((3, 0) is beyond terrain.profile) move it or widen "
                "the domain"},
+        Spoilt{"WaveWithSlide", "level: 0.1", "level: 0.1\n  wave: {kind: standing, amplitude: 0.01, mode: 1}",
+               "c.yaml:8: water.wave with a slide (initial waves are those of undisturbed water) leave one of the two "
+               "out"},
         Spoilt{"WaveOnBodies", "level: 0.1",
                "level: 0.1\n  bodies: [[[1, 0], [2, 0], [2, 0.1]]]\n  wave: {kind: standing, amplitude: 0.01, mode: 1}",
                "c.yaml:9: water.wave with water.bodies (a wave runs on still water) leave one of the two out"},

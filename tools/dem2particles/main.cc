@@ -65,7 +65,10 @@ ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& see
     j["water"]["greatest_depth"] = r.max_water_depth;
     j["water"]["sound_speed"] = seeder.header().sound_speed;
   }
-  if (c.slide.present) j["soil"] = volumes(r.counts.soil, r.soil_volume, r.soil_expected, model.slide_volume);
+  if (c.has_soil()) j["soil"] = volumes(r.counts.soil, r.soil_volume, r.soil_expected, model.slide_volume);
+  const std::vector<BodyMotion>& bodies = seeder.header().bodies;
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    j["bodies"].push_back({{"name", bodies[k].name}, {"volume", r.body_volumes[k]}});
   j["terrain"] = {{"voids_filled", model.voids_filled},
                   {"spikes", model.spikes},
                   {"spikes_removed", model.spikes_removed},
@@ -106,6 +109,10 @@ std::string report_text(const ordered_json& j) {
   text += line("wall   %12lld particles, %lld more left out where neither water nor soil can get",
                p["wall"].get<long long>(), p["left_out"].get<long long>());
   text += line("total  %12lld particles at %g m", p["total"].get<long long>(), j["particle_spacing"].get<double>());
+  if (j.contains("bodies"))
+    for (const auto& body : j["bodies"])
+      text += line("body   %s, %.6g %s, moves as prescribed", body["name"].get<std::string>().c_str(),
+                   body["volume"].get<double>(), j["dimension"] == 2 ? "m2" : "m3");
   if (j.contains("water"))
     text += line("water  %.4g m deep, sound speed %.4g m/s", j["water"]["greatest_depth"].get<double>(),
                  j["water"]["sound_speed"].get<double>());
@@ -141,6 +148,8 @@ int run(const Options& options, const std::string& command) {
   provenance.version = version_string();
   provenance.command_line = command;
   if (options.case_file != "-") provenance.add_input(options.case_file);
+  if (c.slide.motion) provenance.add_input(c.resolve(c.slide.motion->file));
+  for (const MovingBody& body : c.bodies) provenance.add_input(c.resolve(body.motion));
   const TerrainModel model = build_terrain(c, provenance);
 
   Seeder seeder(c, model);
@@ -152,7 +161,7 @@ int run(const Options& options, const std::string& command) {
   LGIW_VALIDATE(!c.water.present || report.counts.water > 0, "there is no water",
                 "no lattice point lies in it at a spacing of " + std::to_string(c.dp) + " m",
                 "Choose a smaller particle_spacing or another water.level");
-  LGIW_VALIDATE(!c.slide.present || report.counts.soil > 0, "there is no soil",
+  LGIW_VALIDATE(!c.has_soil() || report.counts.soil > 0, "there is no soil",
                 "no lattice point lies in it at a spacing of " + std::to_string(c.dp) + " m",
                 "Choose a smaller particle_spacing or a thicker slide");
   const double rate = options.rate > 0 ? options.rate : default_particle_rate(c.dimension);
