@@ -131,7 +131,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.k0 = 1 - std::sin(p.friction);
     if (water && s.pore_pressure == PorePressure::hydrostatic) p.pore_gradient = c.water.density * g;
     p.coulomb_bed = s.bed == WallFriction::coulomb, p.free_slip_bed = s.bed == WallFriction::free_slip;
-    p.free_slip_sides = s.sides == WallFriction::free_slip;
+    p.coulomb_sides = s.sides == WallFriction::coulomb, p.free_slip_sides = s.sides == WallFriction::free_slip;
     p.bed_friction = std::tan(s.bed_friction_angle * degree);
     const double wave = SoilMaterial<double>::wave_speed(s.young_modulus, s.poisson_ratio, s.density);
     const double height = greatest_soil_height(data.soil, header.dp);

@@ -45,8 +45,7 @@ struct Parameters {
       static_stress_wet;  // -d(stress)/d(g.x): rho_s kappa, above and below still water level
   T pore_gradient, still_water_level;
   T artificial_stress, inverse_w_dp;  // epsilon / rho_s^2, 1 / W(dp)
-  bool return_mapping, wall_viscosity, coulomb_bed, corrected_strain_rate;
-  T bed_friction;
+  bool return_mapping, wall_viscosity, coulomb_walls, corrected_strain_rate;
   // Interface.
   InterfacePair<T, D> interface;
   T velocity_factor, mass_ratio;  // xi, m_w / m_s
@@ -102,9 +101,9 @@ struct Parameters {
     still_water_level = T(water ? p.still_water_level : 0);
     artificial_stress = T(with_soil ? p.artificial_stress / (p.soil_density * p.soil_density) : 0);
     inverse_w_dp = 1 / kernel.value(dp);
-    return_mapping = p.return_mapping, wall_viscosity = p.wall_viscosity, coulomb_bed = p.coulomb_bed;
+    return_mapping = p.return_mapping, wall_viscosity = p.wall_viscosity,
+    coulomb_walls = p.coulomb_bed || p.coulomb_sides;
     corrected_strain_rate = p.corrected_strain_rate;
-    bed_friction = T(p.bed_friction);
 
     interface.water_mass = water_mass;
     interface.viscosity = water_viscosity;
@@ -189,9 +188,10 @@ struct WallView {
   const int* start = nullptr;
   const T* x[D] = {};
   const T* normal[D] = {};
-  const T* weight = nullptr;  // V_b / dp^D
-  const T* slip = nullptr;    // 1 where soil slips freely
-  T* term = nullptr;          // water: p/rho^2 and excess density
+  const T* weight = nullptr;    // V_b / dp^D
+  const T* slip = nullptr;      // 1 where soil slips, freely or against friction
+  const T* friction = nullptr;  // coefficient of Coulomb walls, 0 elsewhere; where there are any
+  T* term = nullptr;            // water: p/rho^2 and excess density
   T* excess = nullptr;
   T* v[D] = {};  // soil: image velocity, image stress
   T* stress[Tr::S] = {};

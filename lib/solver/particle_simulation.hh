@@ -143,14 +143,15 @@ class ParticleSimulation final : public Simulation {
     }
   };
   struct Wall {
-    Array<T> x[D], normal[D], weight, slip, term, excess, v[D], stress[S];
+    Array<T> x[D], normal[D], weight, slip, friction, term, excess, v[D], stress[S];
     Array<unsigned> id;
     Array<int> start;
     template <class F>
     void all(F&& f) {
       for (auto& q : x) f(q, "position");
       for (auto& q : normal) f(q, "normal");
-      f(weight, "volume"), f(slip, "slip"), f(term, "image pressure"), f(excess, "image density");
+      f(weight, "volume"), f(slip, "slip"), f(friction, "friction"), f(term, "image pressure"),
+          f(excess, "image density");
       for (auto& q : v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
       f(id, "id"), f(start, "cell starts");
@@ -159,7 +160,8 @@ class ParticleSimulation final : public Simulation {
   /// Particles of the bodies that move as prescribed; few, and sorted anew in every step.
   struct Bodies {
     Spare spare;
-    Array<T> x[D], v[D], a[D], arm[D], normal[D], own_normal[D], weight, slip, term, excess, image_v[D], stress[S];
+    Array<T> x[D], v[D], a[D], arm[D], normal[D], own_normal[D], weight, slip, friction, term, excess, image_v[D],
+        stress[S];
     Array<int> body;
     Array<unsigned> id;
     Array<int> key, start;
@@ -175,7 +177,7 @@ class ParticleSimulation final : public Simulation {
       for (auto& q : arm) f(q, "arm");
       for (auto& q : normal) f(q, "normal");
       for (auto& q : own_normal) f(q, "normal at pitch 0");
-      f(weight, "volume"), f(slip, "slip"), f(body, "body"), f(id, "id");
+      f(weight, "volume"), f(slip, "slip"), f(friction, "friction"), f(body, "body"), f(id, "id");
     }
     template <class F>
     void scratch(F&& f) {
@@ -444,9 +446,13 @@ class ParticleSimulation final : public Simulation {
     put(walls.weight, value), put(walls.id, id);
     if (n_water_) walls.term = zeros<T>(n), walls.excess = zeros<T>(n);
     if (n_soil_) {
+      const auto at_side = [&](std::size_t i) { return in.wall_kind[id[i]] == 1; };
+      const auto rubs = [&](std::size_t i) { return at_side(i) ? model_.coulomb_sides : model_.coulomb_bed; };
       for (std::size_t i = 0; i < n; ++i)
-        value[i] = (in.wall_kind[id[i]] == 1 ? model_.free_slip_sides : model_.free_slip_bed) ? T(1) : T(0);
+        value[i] = rubs(i) || (at_side(i) ? model_.free_slip_sides : model_.free_slip_bed) ? T(1) : T(0);
       put(walls.slip, value);
+      for (std::size_t i = 0; i < n; ++i) value[i] = T(rubs(i) ? model_.bed_friction : 0);
+      if (p_.coulomb_walls) put(walls.friction, value);
       for (int k = 0; k < D; ++k) {
         for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
         put(walls.normal[k], value);
@@ -564,7 +570,7 @@ class ParticleSimulation final : public Simulation {
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
     if (n_soil_) {
-      if (p_.coulomb_bed)
+      if (p_.coulomb_walls)
         run_limits<SoilForces<Tr, true>>("soil forces", n_soil_);
       else
         run_limits<SoilForces<Tr, false>>("soil forces", n_soil_);
@@ -716,6 +722,7 @@ class ParticleSimulation final : public Simulation {
       b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
     for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
     b.start = wall_.start.data(), b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
+    b.friction = wall_.friction.data();
     b.term = wall_.term.data(), b.excess = wall_.excess.data(), b.id = wall_.id.data();
     return b;
   }
@@ -732,6 +739,7 @@ class ParticleSimulation final : public Simulation {
     }
     for (int c = 0; c < S; ++c) b.stress[c] = m.stress[c].data();
     b.start = m.start.data(), b.weight = m.weight.data(), b.slip = m.slip.data();
+    b.friction = m.friction.data();
     b.term = m.term.data(), b.excess = m.excess.data(), b.id = m.id.data();
     b.body = m.body.data(), b.key = m.key.data();
     return b;
@@ -844,7 +852,7 @@ std::vector<std::string> ParticleSimulation<Backend, Tr>::left_out() const {
     out.push_back("previous step's fields (Verlet): " + mebibytes((water * (D + 1) + soil * (D + S)) * t));
   if (n_soil_ && n_water_ && !(p_.interface.repulsion.strength > 0))
     out.push_back("interface repulsion: its part of the pair loop");
-  if (n_soil_ && !p_.coulomb_bed) out.push_back("Coulomb friction limit at the bed");
+  if (n_soil_ && !p_.coulomb_walls) out.push_back("Coulomb friction at walls");
   if (!n_wall_) out.push_back("walls");
   if (!n_bodies_) out.push_back("moving bodies");
   return out;

@@ -667,7 +667,7 @@ struct WaterForces : Pass<Tr> {
   }
 };
 
-/// Acceleration of a soil particle. `coulomb` compiles in the friction limit of a Coulomb bed.
+/// Acceleration of a soil particle. `coulomb` compiles in walls with Coulomb friction.
 template <class Tr, bool coulomb>
 struct SoilForces : Pass<Tr> {
   using B = Pass<Tr>;
@@ -713,7 +713,10 @@ struct SoilForces : Pass<Tr> {
       over_soil<true>(i, cell, x, v, sigma, a, mu_max);
     else
       over_soil<false>(i, cell, x, v, sigma, a, mu_max);
-    if (this->wall.n || this->bodies.n) over_walls(cell, x, v, sigma, a);
+    WallForce walls{};
+    if (this->wall.n) of_walls(this->wall, cell, x, v, sigma, walls);
+    if (this->bodies.n) of_walls(this->bodies, cell, x, v, sigma, walls);
+    add_scaled(a, T(1), walls.force);
     a = p.soil_mass * a;
     if (this->water.n) {
       const auto& w = this->water;
@@ -731,13 +734,16 @@ struct SoilForces : Pass<Tr> {
       add_scaled(a, p.mass_ratio, sum);
     }
     for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
+    if constexpr (coulomb) touch(i, walls, a);
     B::store(s.a, i, a);
     return {dot(a, a), mu_max};
   }
 
-  /// Forces of walls per unit of soil mass, and where they lie: sums of the weighted kernel gradient.
+  /// Forces of walls per unit of soil mass.
   struct WallForce {
-    V bed, slipping, into_wall;
+    V force;                   // of rough and slipping walls
+    V pressure, normal, slip;  // of Coulomb walls: force along their normals; normals and velocity relative to them,
+    T weight, friction;  // and coefficient of friction, times weight: sums of the kernel gradient along the normals
   };
   template <class Walls>
   LGIW_FN void of_walls(const Walls& b, int cell, const V& x, const V& v, const Stress<T, D>& sigma,
@@ -754,42 +760,48 @@ struct SoilForces : Pass<Tr> {
       const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
       Stress<T, D> stress;
       for (int c = 0; c < S; ++c) stress.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
-      V force = f * apply(stress, r);
-      add_scaled(force, -f * viscous, r);
       if constexpr (coulomb) {
-        add_scaled(sum.bed, 1 - slip, force);
-        add_scaled(sum.slipping, slip, force);
-        add_scaled(sum.into_wall, (1 - slip) * f, r);
+        const T touching = b.friction[j] > 0 ? T(1) : T(0), weight = -touching * f * dot(r, n);
+        add_scaled(sum.pressure, weight * (viscous - dot(n, apply(stress, n))), n);
+        add_scaled(sum.normal, weight, n);
+        add_scaled(sum.slip, weight, v_ib);
+        sum.weight += weight, sum.friction += weight * b.friction[j];
+        add_scaled(sum.force, 1 - touching, f * apply(stress, r));
+        add_scaled(sum.force, -(1 - touching) * f * viscous, r);
       } else {
-        add_scaled(sum.bed, T(1), force);
+        V force = f * apply(stress, r);
+        add_scaled(force, -f * viscous, r);
+        add_scaled(sum.force, T(1), force);
       }
     });
   }
 
-  /// Adds the walls' and bodies' part (per unit of soil mass) to a: physics.md section 8.
-  LGIW_FN void over_walls(int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a) const {
-    WallForce sum{};
-    if (this->wall.n) of_walls(this->wall, cell, x, v, sigma, sum);
-    if (this->bodies.n) of_walls(this->bodies, cell, x, v, sigma, sum);
-    V bed = sum.bed;
-    if constexpr (coulomb) {
-      const T length2 = dot(sum.into_wall, sum.into_wall);
-      if (length2 > 0) {
-        const V n = (-1 / square_root(length2)) * sum.into_wall;
-        const T normal = dot(bed, n);
-        V tangential = bed;
-        add_scaled(tangential, -normal, n);
-        const T size = square_root(dot(tangential, tangential));
-        const T limit = this->parameters.bed_friction * largest(T(0), normal);
-        if (size > limit) {
-          tangential = (limit / size) * tangential;
-          bed = normal * n;
-          add_scaled(bed, T(1), tangential);
-        }
-      }
-      add_scaled(bed, T(1), sum.slipping);
+  /// Contact with Coulomb walls, physics.md section 8: adds their pressure, along the normals of the walls and never
+  /// adhesive, to the acceleration `a` by all else, and then the friction that would bring the particle to rest
+  /// relative to the wall within the next step, or what the pressure allows of it. Along a plane nothing else acts,
+  /// whatever its angle to the lattice of particles.
+  LGIW_FN void touch(int i, const WallForce& walls, V& a) const {
+    const auto& p = this->parameters;
+    const StepState& st = *this->state;
+    const T length2 = dot(walls.normal, walls.normal);
+    if (!(length2 > 0) || !(walls.weight > 0)) return;
+    const V n = (1 / square_root(length2)) * walls.normal;
+    const T pressure = p.soil_mass * dot(walls.pressure, n);
+    if (!(pressure > 0)) return;
+    add_scaled(a, p.soil_mass, walls.pressure);
+    // The velocity that the acceleration is going to change, and over which time.
+    const bool from_previous = p.verlet && st.euler_countdown != 1;
+    V slip = (1 / walls.weight) * walls.slip;
+    if (from_previous) {
+      add_scaled(slip, T(1), B::load(this->soil.v_previous, i));
+      add_scaled(slip, T(-1), B::load(this->soil.v, i));
     }
-    add_scaled(a, T(1), bed);
+    const T dt = T(from_previous ? 2 * st.dt : st.dt);
+    V stop = T(-1) * a;
+    if (dt > 0) add_scaled(stop, -1 / dt, slip);
+    add_scaled(stop, -dot(stop, n), n);
+    const T size = square_root(dot(stop, stop)), limit = walls.friction / walls.weight * pressure;
+    add_scaled(a, size > limit ? limit / size : T(1), stop);
   }
 };
 

@@ -36,8 +36,8 @@ struct ModelParameters {
   double inertial_number = 0, grain_diameter = 0, grain_density = 0;
   double k0 = 1;
   double pore_gradient = 0;  // rho0 g of the pore water, Pa/m; 0: none
-  bool coulomb_bed = false, free_slip_bed = false, free_slip_sides = true;
-  double bed_friction = 0;  // tan(delta) of a Coulomb bed
+  bool coulomb_bed = false, coulomb_sides = false, free_slip_bed = false, free_slip_sides = true;
+  double bed_friction = 0;  // tan(delta) of Coulomb walls
   // Interface.
   double velocity_factor = 1;
   bool repulsion = true, image_gravity = true;
