@@ -1,4 +1,4 @@
-# One page from summary.json: jq -r -f summary.jq summary.json
+# One page from summary.json: jq -r --arg uncertainty "a line" -f summary.jq summary.json
 def fixed($digits): # a number with so many decimals; jq 1.6 has no printf
   if . == null then "-"
   else pow(10; $digits) as $p | (. * $p | round) as $n | ($n | fabs) as $a
@@ -26,6 +26,7 @@ def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + "
   "fastest \(.max_slide_speed_m_s | short) m/s",
 "  run-up           \(.runup_m | short) m above still level on the opposite bank",
 "  conservation     mass error \(.mass_error | scientific), density error \(.density_error | scientific)",
+"  uncertainty      \($uncertainty)",
 "  left out         \(if (.left_out | length) == 0 then "nothing" else (.left_out | join("\n                   ")) end)",
 "",
 "  \("gauge" | fill(10)) \("x (m)" | pad(10)) \("y (m)" | pad(11)) \("highest (m)" | pad(12)) " +

@@ -53,6 +53,10 @@ TEST_F(MeasuringTools, GaugesPeaksRunupAndSummary) {
   const json summary = json::parse(read_bytes(shop / "s.json"));
   EXPECT_DOUBLE_EQ(summary["runup_m"], 4);
   EXPECT_DOUBLE_EQ(summary["still_water_level_m"], 510);
+  EXPECT_DOUBLE_EQ(summary["parameters"]["still_water_depth_m"], 10);
+  EXPECT_DOUBLE_EQ(summary["parameters"]["friction_angle_deg"], 20);
+  EXPECT_DOUBLE_EQ(summary["parameters"]["particle_spacing_m"], 2);
+  EXPECT_TRUE(summary["parameters"]["water_fills_to_level"]);
   EXPECT_EQ(summary["sections"][0]["name"], "A");
   EXPECT_DOUBLE_EQ(summary["sections"][0]["time_of_runup_s"], 12);
   ASSERT_EQ(summary["gauges"].size(), 3u);

@@ -147,7 +147,33 @@ CsvTable runup_table(const std::vector<SectionRunup>& sections, const std::vecto
   return table;
 }
 
-ordered_json summary_json(const Measurements& m) {
+/// What a sensitivity study of the case starts from. Angles in degrees; what the scene lacks is absent.
+ordered_json parameters_json(const Case& c, const ParticleHeader& particles, double deepest) {
+  ordered_json parameters{{"particle_spacing_m", particles.dp}};
+  if (particles.counts.soil > 0) {
+    parameters["friction_angle_deg"] = c.soil.friction_angle;
+    if (c.soil.bed == WallFriction::coulomb) parameters["bed_friction_angle_deg"] = c.soil.bed_friction_angle;
+  }
+  if (particles.counts.water > 0) {
+    parameters["still_water_level_m"] = particles.still_water_level + particles.origin[2];
+    parameters["still_water_depth_m"] = deepest;
+    parameters["water_fills_to_level"] = c.water.bodies.empty();
+  }
+  return parameters;
+}
+
+/// Greatest depth of the water at rest, m; NaN without any.
+double deepest_water(const RunHeader& header, const std::vector<float>& water) {
+  const ParticleHeader& p = header.particles;
+  if (ground_of(p).empty()) return no_value;
+  const std::vector<double> ground = at_nodes(header.map, ground_of(p));
+  double depth = no_value;
+  for (std::size_t n = 0; n < water.size(); ++n)
+    if (!std::isnan(water[n]) && !(p.still_water_level - ground[n] <= depth)) depth = p.still_water_level - ground[n];
+  return depth;
+}
+
+ordered_json summary_json(const Measurements& m, const ordered_json& parameters) {
   ordered_json summary;
   summary["gauges"] = ordered_json::array();
   for (std::size_t g = 0; g < m.gauges.size(); ++g) {
@@ -181,6 +207,7 @@ ordered_json summary_json(const Measurements& m) {
                                    {"runup_elevation_m", s.max_elevation},
                                    {"time_of_runup_s", s.time_of_max}});
   if (!std::isnan(m.shore_runup)) summary["shore_runup_m"] = m.shore_runup;
+  summary["parameters"] = parameters;
   if (!m.comparison.empty()) summary["comparison"] = comparison_json(m.comparison);
   return summary;
 }
@@ -378,7 +405,8 @@ int run(const Options& options, const std::string& command) {
   if (!options.maps.empty())
     m.shore_runup =
         write_wave_maps(options.maps, run, first_water, arrivals, m.gauges, m.peaks, options.common.overwrite);
-  results.summarise(options.summary, summary_json(m));
+  results.summarise(options.summary,
+                    summary_json(m, parameters_json(c, particles, deepest_water(header, first_water))));
   return 0;
 }
 
