@@ -162,6 +162,7 @@ struct Numerics {
   bool return_mapping = true;          // false: rate form, Eqs. (8)-(9)
   bool wall_viscosity = true;          // Pi_ib of physics.md section 8
   bool corrected_strain_rate = false;  // first-order velocity gradient of the soil
+  double shifting = 0;                 // of water, A of Skillen et al. 2013; 0 leaves it out
   Precision precision = Precision::mixed;
   double settle_time = 0;  // s of damped motion before t = 0; the soil is held unless its initial stress is to settle
   Backend backend = Backend::auto_;

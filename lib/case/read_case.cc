@@ -260,6 +260,7 @@ void read_numerics(const YamlSection& s, Numerics& n) {
   s.choice<bool>("constitutive", n.return_mapping, {{"return_mapping", true}, {"rate_form", false}});
   s.flag("wall_viscosity", n.wall_viscosity);
   s.choice<bool>("strain_rate", n.corrected_strain_rate, {{"plain", false}, {"corrected", true}});
+  s.number("shifting", n.shifting, between(0, 10));
   s.choice<Precision>("precision", n.precision,
                       {{"single", Precision::single_}, {"mixed", Precision::mixed}, {"double", Precision::double_}});
   s.number("settle_time", n.settle_time, between(0, 1e5, "s"));

@@ -49,6 +49,24 @@ struct WaterContinuity {
   LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f) const { return mass * f * dot(v, r); }
 };
 
+/// Particle shifting: particles drift from crowded to empty places with -A h |v| grad C, grad C = sum V_j grad W_ij
+/// (Lind et al. 2012; Skillen et al. 2013). At a free surface, where grad C points outwards, it fades with the
+/// divergence of position, div r = -sum V_j r_ij . grad W_ij, which is D inside and about D/2 to 2/3 D at the surface:
+/// from full at D to none at D - 1/2 (2-D) and D - 1/4 (3-D).
+template <class T, int D>
+struct ParticleShifting {
+  T strength = 0;  // A h, m
+  T surface = T(D) - (D == 2 ? T(0.5) : T(0.25));
+  ParticleShifting() = default;
+  ParticleShifting(double a, double h) : strength(T(a * h)) {}
+
+  /// Velocity (m/s) with which a particle of speed |v| drifts, for the gradient of concentration (1/m) and div r.
+  LGIW_FN Vec<T, D> operator()(const Vec<T, D>& gradient, T divergence, T speed) const {
+    const T inside = smallest(T(1), largest(T(0), (divergence - surface) / (T(D) - surface)));
+    return (-strength * speed * inside) * gradient;
+  }
+};
+
 /// Monaghan's artificial viscosity, Eq. (5).
 template <class T, int D>
 struct ArtificialViscosity {

@@ -112,6 +112,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.sound_speed = sound_speed(c, header);
     p.water_alpha = c.water.viscosity_alpha;
     p.density_diffusion = c.water.density_diffusion;
+    p.shifting = c.numerics.shifting;
     p.still_water_level = header.still_water_level;
   }
   if (soil) {

@@ -36,6 +36,7 @@ struct Parameters {
   ArtificialViscosity<T, D> water_viscosity;
   T water_mass;
   bool density_diffusion;
+  ParticleShifting<T, D> shifting;
   // Soil.
   SoilMaterial<T> soil;
   RateStrength<T> soil_rate;
@@ -77,6 +78,7 @@ struct Parameters {
     water_mass = T(p.water_density * v);
     continuity.mass = water_mass;
     density_diffusion = p.density_diffusion > 0;
+    shifting = ParticleShifting<T, D>(water ? p.shifting : 0, p.h);
     continuity.diffusion = T(2 * p.density_diffusion * p.h * c);
     water_viscosity = ArtificialViscosity<T, D>(p.water_alpha, c, p.h);
 
@@ -154,6 +156,7 @@ struct WaterView {
   unsigned* id = nullptr;
   T* v_previous[D] = {};  // Verlet only
   T* excess_previous = nullptr;
+  T* shift[D] = {};  // velocity of the shifting, where switched on
   int* key = nullptr;
 };
 

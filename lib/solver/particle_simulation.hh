@@ -97,7 +97,7 @@ class ParticleSimulation final : public Simulation {
   struct Water {
     Spare spare;
     Array<P> position[D];
-    Array<T> x[D], v[D], a[D], excess, excess_next, term, v_previous[D], excess_previous;
+    Array<T> x[D], v[D], a[D], excess, excess_next, term, v_previous[D], excess_previous, shift[D];
     Array<unsigned> id;
     Array<int> key, start;
     /// Fields that follow the particles through a sort; the others are recomputed before they are read.
@@ -113,6 +113,7 @@ class ParticleSimulation final : public Simulation {
       if (two_positions)
         for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
+      for (auto& q : shift) f(q, "shifting");
       f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts");
     }
   };
@@ -383,6 +384,7 @@ class ParticleSimulation final : public Simulation {
       put(water_.v[k], v);
       if (p_.verlet) put(water_.v_previous[k], v);
       water_.a[k] = zeros<T>(n);
+      if (p_.shifting.strength > 0) water_.shift[k] = zeros<T>(n);
     }
     std::vector<T> excess(in.water_excess.begin(), in.water_excess.end());
     put(water_.excess, excess);
@@ -567,6 +569,7 @@ class ParticleSimulation final : public Simulation {
     if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr, false>>("images", n_wall_);
     if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", n_bodies_);
     if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", n_soil_);
+    if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", n_water_);
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
     if (n_soil_) {
@@ -687,6 +690,7 @@ class ParticleSimulation final : public Simulation {
         w.x[k] = water_.x[k].data();
       else
         w.x[k] = water_.position[k].data();
+      w.shift[k] = water_.shift[k].data();
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
     w.start = water_.start.data(), w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data();
@@ -798,6 +802,8 @@ class ParticleSimulation final : public Simulation {
     });
     for (auto& q : water_.a)
       if (q.size()) f(q, "water acceleration");
+    for (auto& q : water_.shift)
+      if (q.size()) f(q, "water shifting");
     if (n_water_) f(water_.start, "water cell starts");
     soil_.carried([&](auto& q, const char* name) {
       if (q.size()) f(q, std::string("soil ") + name);
@@ -846,6 +852,8 @@ std::vector<std::string> ParticleSimulation<Backend, Tr>::left_out() const {
     out.push_back("the y direction (velocity, acceleration, two shear stresses): " +
                   mebibytes(((water + soil) * 3 + soil * 4) * t));
   if (n_water_ && !p_.density_diffusion) out.push_back("density diffusion: its part of the pair loop");
+  if (n_water_ && !(p_.shifting.strength > 0))
+    out.push_back("particle shifting: its pass and " + mebibytes(water * D * t));
   if (n_soil_ && !(p_.stress_diffusion > 0)) out.push_back("stress diffusion: its part of the pair loop");
   if (n_soil_ && !(p_.artificial_stress > 0)) out.push_back("artificial stress: " + mebibytes(soil * S * t));
   if (!p_.verlet)

@@ -172,6 +172,9 @@ struct Motion : Pass<Tr> {
         if (st.settling) v *= T(1 / (1 + st.dt * double(is_water ? p.settle_rate : p.soil_settle_rate)));
         dx = st.dt * double(v);
       }
+      if constexpr (is_water) {
+        if (w.shift[k]) dx += st.dt * double(w.shift[k][i]);
+      }
       const P position = P(double(w.position[k][i]) + dx);
       w.v[k][i] = v;
       speed2 += double(v) * double(v);
@@ -594,6 +597,40 @@ struct SoilImages : WaterImage<Tr> {
     const T excess = p.eos.excess(pressure), rho = p.eos.rho0 + excess;
     s.image_excess[i] = excess;
     s.image_term[i] = pressure / (rho * rho);
+  }
+};
+
+/// Velocity of the shifting of a water particle.
+template <class Tr>
+struct WaterShift : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D;
+
+  LGIW_FN void operator()(int i) const {
+    const auto& w = this->water;
+    V shift{};
+    if (i < w.start[this->grid.cells] && !this->state->settling) {
+      const int cell = this->cell_of(w, i);
+      const V x = B::load(w.x, i), v = B::load(w.v, i);
+      V gradient{};
+      T divergence = 0;
+      const auto of = [&](const auto& view, const auto& volume) {
+        this->for_each_near(view, cell, x, [&](int j, const V& r, T r2) {
+          const T f = volume(j) * this->parameters.kernel.gradient(square_root(r2));
+          add_scaled(gradient, f, r);
+          divergence -= f * r2;
+        });
+      };
+      const T one = this->parameters.volume;
+      of(w, [&](int) { return one; });
+      if (this->soil.n) of(this->soil, [&](int) { return one; });
+      if (this->wall.n) of(this->wall, [&](int j) { return one * this->wall.weight[j]; });
+      if (this->bodies.n) of(this->bodies, [&](int j) { return one * this->bodies.weight[j]; });
+      shift = this->parameters.shifting(gradient, divergence, square_root(dot(v, v)));
+    }
+    B::store(w.shift, i, shift);
   }
 };
 

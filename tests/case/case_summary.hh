@@ -58,7 +58,7 @@ inline std::string case_summary(const Case& c) {
   field(c.interface.repulsion, c.interface.velocity_factor);
   const Numerics& n = c.numerics;
   field(n.scheme, int(n.kernel), n.h_over_dp, int(n.integrator), n.cfl, n.return_mapping, n.wall_viscosity,
-        n.corrected_strain_rate, int(n.precision), n.settle_time, int(n.backend), n.threads);
+        n.corrected_strain_rate, n.shifting, int(n.precision), n.settle_time, int(n.backend), n.threads);
   const Output& o = c.output;
   field(o.end_time, o.frame_interval, o.surface_interval, o.map_spacing, o.arrival_threshold, o.checkpoint_interval);
   for (const Gauge& g : c.gauges) field(g.name, g.x, g.y, int(g.quantity), g.z);

@@ -2,6 +2,7 @@
 // phases.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <complex>
 
 #include "cloud.hh"
@@ -370,6 +371,49 @@ TEST(Oracle, Step2D) { compare_step<2>({}); }
 TEST(Oracle, Step3D) { compare_step<3>({3}); }
 TEST(Oracle, StepBesideAMovingBody2D) { compare_step<2>({2, true, false, false, true, true, true}); }
 TEST(Oracle, StepBesideAMovingBody3D) { compare_step<3>({3, true, false, false, true, true, true}); }
+
+/// Shifting moves a particle, and changes nothing else of it, by -A h |v| grad C dt in the bulk.
+template <int D>
+void compare_shifting() {
+  Cloud c = cloud({D, true, false, false, true, true, true});
+  const auto plain = make_cpu_simulation(c.p, c.in, NumberType::double_);
+  c.p.shifting = 2;
+  const auto shifted = make_cpu_simulation(c.p, c.in, NumberType::double_);
+  const Oracle<D> oracle(c);
+  using V = typename Oracle<D>::V;
+  const double dt = plain->state().dt;
+  ASSERT_EQ(shifted->state().dt, dt);
+  plain->advance(1, 1), shifted->advance(1, 1);
+  ParticleState a, b;
+  plain->download(a), shifted->download(b);
+  EXPECT_EQ(a.water_v, b.water_v);
+  EXPECT_EQ(a.soil_x, b.soil_x);
+  int within = 0, kept = 0;
+  for (std::size_t i = 0; i < oracle.xw.size(); ++i) {
+    V gradient{};
+    double divergence = 0;
+    auto add = [&](const V& x, double volume) {
+      const V r = oracle.xw[i] - x;
+      const double d = std::sqrt(dot(r, r));
+      if (d == 0 || d >= 2 * c.p.h) return;
+      add_scaled(gradient, volume * oracle.f(d), r);
+      divergence -= volume * oracle.f(d) * d * d;
+    };
+    for (const V& x : oracle.xw) add(x, oracle.volume);
+    for (const V& x : oracle.xs) add(x, oracle.volume);
+    for (std::size_t j = 0; j < oracle.xb.size(); ++j) add(oracle.xb[j], oracle.volume_b[j]);
+    const double fade = std::clamp((divergence - D) * (D == 2 ? 2 : 4) + 1, 0.0, 1.0);
+    within += fade > 0.5, kept += fade == 0;
+    for (int k = 0; k < D; ++k) {
+      const double moved = b.water_x[3 * i + Oracle<D>::axis(k)] - a.water_x[3 * i + Oracle<D>::axis(k)];
+      EXPECT_NEAR(moved, -dt * 2 * c.p.h * size(oracle.vw[i]) * fade * gradient[k], 1e-12) << "water " << i;
+    }
+  }
+  EXPECT_GT(within, 10);
+  EXPECT_GT(kept, 10);
+}
+TEST(Oracle, Shifting2D) { compare_shifting<2>(); }
+TEST(Oracle, Shifting3D) { compare_shifting<3>(); }
 
 /// Without walls and gravity the forces of all pairs, across the interface too, cancel to round-off.
 template <int D>
