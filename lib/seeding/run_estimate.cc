@@ -2,12 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "seeding/initial_state.hh"
+#include <cstdio>
 
 namespace lgiw {
 
-double default_particle_rate(int dimension) { return dimension == 2 ? 5e6 : 1.5e6; }
+namespace {
+
+/// Particle-steps a second and thread, walls included; measured on 2 cores (docs/performance.md).
+struct Rates {
+  double water, with_soil;
+};
+constexpr Rates rates_2d{3.0e6, 3.0e6}, rates_3d{1.0e6, 1.0e6};
+
+/// Errors measured with at least `particles` across the length that counts, coarsest first (docs/verification.md).
+struct MeasuredError {
+  double particles, error;
+};
+constexpr MeasuredError crest_by_slide_thickness[] = {{11, 0.10}};
+constexpr MeasuredError pressure_by_water_depth[] = {{40, 0.0042}};
+
+template <std::size_t n>
+std::optional<double> error_at(const MeasuredError (&table)[n], double particles) {
+  std::optional<double> error;
+  for (const MeasuredError& row : table)
+    if (particles >= row.particles) error = row.error;
+  return error;
+}
+
+template <std::size_t n>
+std::string sentence(const MeasuredError (&table)[n], const std::string& what, double particles,
+                     const std::optional<double>& error) {
+  char text[200];
+  if (error)
+    std::snprintf(text, sizeof text, "%s within %.2g %%", what.c_str(), 100 * *error);
+  else
+    std::snprintf(text, sizeof text, "%s not measured below %g particles (here %.3g)", what.c_str(), table[0].particles,
+                  particles);
+  return text;
+}
+
+}  // namespace
+
+double particle_rate(int dimension, bool soil, int threads) {
+  const Rates& rates = dimension == 2 ? rates_2d : rates_3d;
+  return threads * (soil ? rates.with_soil : rates.water);
+}
+
+ErrorClass expected_error(std::optional<double> slide_particles, std::optional<double> depth_particles) {
+  ErrorClass e;
+  std::string parts;
+  if (slide_particles) {
+    e.crest = error_at(crest_by_slide_thickness, *slide_particles);
+    parts += sentence(crest_by_slide_thickness, "first crest", *slide_particles, e.crest) + " (slide thickness)";
+  }
+  if (depth_particles) {
+    e.pressure = error_at(pressure_by_water_depth, *depth_particles);
+    parts += (parts.empty() ? "" : "; ") + sentence(pressure_by_water_depth, "pressure", *depth_particles, e.pressure) +
+             (e.pressure ? " of rho g H" : "") + " (water depth)";
+  }
+  e.text = "error to expect from what was measured: " + (parts.empty() ? "nothing to go by" : parts);
+  return e;
+}
 
 double soil_sound_speed(const Case& c) {
   if (!c.has_soil()) return 0;
@@ -16,23 +71,22 @@ double soil_sound_speed(const Case& c) {
   return std::sqrt((bulk + 4 * shear / 3) / c.soil.density);
 }
 
-RunEstimate estimate_run(const Case& c, const SeedingReport& report, double sound_speed, double rate) {
+RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double rate) {
   RunEstimate estimate;
   const double h = c.numerics.h_over_dp * c.dp, fastest = std::max(sound_speed, soil_sound_speed(c));
   const double speed = 0.1 * (sound_speed > 0 ? sound_speed : fastest);
   estimate.time_step =
-      c.numerics.cfl * std::min(std::sqrt(h / vertical_gravity(c)), h / std::max(fastest + speed, 1e-9));
+      c.numerics.cfl * std::min(std::sqrt(h / std::abs(c.gravity[2])), h / std::max(fastest + speed, 1e-9));
   estimate.steps = std::ceil((c.output.end_time + c.numerics.settle_time) / estimate.time_step);
-  estimate.run_time = estimate.steps * double(report.counts.total()) / rate;
+  estimate.run_time = estimate.steps * double(counts.total()) / rate;
 
   // Numbers held per particle: positions (at their own precision), the other fields, and indices of 4 bytes.
   const double d = c.dimension, position = c.numerics.precision == Precision::single_ ? 4 : 8;
   const double number = c.numerics.precision == Precision::double_ ? 8 : 4, stresses = c.dimension == 2 ? 4 : 6;
   const double water = 2 * position * d + number * (3 * d + 4) + 16;
   const double soil = 2 * position * d + number * (3 * d + 2 * stresses + 4) + 16;
-  const double wall = number * (2 * d + 4 + (c.has_soil() ? d + stresses : 0)) + 4;
-  estimate.memory_bytes =
-      double(report.counts.water) * water + double(report.counts.soil) * soil + double(report.counts.wall) * wall + 6e7;
+  const double wall = number * (2 * d + 4 + (counts.soil > 0 ? d + stresses : 0)) + 4;
+  estimate.memory_bytes = double(counts.water) * water + double(counts.soil) * soil + double(counts.wall) * wall + 6e7;
   return estimate;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 
@@ -33,6 +34,7 @@ struct Yield {
   ParticleCounts counts;
   double wall_volume = 0, body_volume = 0;   // body: of a rigid slide of a DEM
   double water_excess = 0, soil_excess = 0;  // over dp^D a particle
+  std::map<int64_t, int64_t> soil_columns;  // number of columns by their number of soil particles
   void clear() { *this = {}; }
 };
 
@@ -594,7 +596,9 @@ void Seeder::Parts::work_on(int64_t begin, int64_t end, bool keep, Yield& yield)
   thread_local std::vector<WallParticle> wall;
   for (int64_t n = begin; n < end; ++n) {
     const auto [i, j] = cells.cell(n);
+    const int64_t soil_before = yield.counts.soil;
     if (cells.inside(i, j)) place_fluid(i, j, keep, yield);
+    if (yield.counts.soil > soil_before) ++yield.soil_columns[yield.counts.soil - soil_before];
     if (rigid_ground && cells.inside(i, j)) slide_column(i, j, keep, yield);
     wall.clear();
     yield.counts.wall_left_out += walls.column(i, j, wall);
@@ -628,6 +632,7 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
       sum.counts.water += y.counts.water, sum.counts.soil += y.counts.soil, sum.counts.wall += y.counts.wall;
       sum.counts.wall_left_out += y.counts.wall_left_out, sum.wall_volume += y.wall_volume;
       sum.water_excess += y.water_excess, sum.soil_excess += y.soil_excess;
+      for (const auto& [particles, number] : y.soil_columns) sum.soil_columns[particles] += number;
     }
     if (progress) progress(double(last) / double(chunks));
   }
@@ -637,6 +642,12 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
   parts_->report.wall_volume = sum.wall_volume;
   parts_->report.water_volume = double(sum.counts.water) * volume + sum.water_excess;
   parts_->report.soil_volume = double(sum.counts.soil) * volume + sum.soil_excess;
+  int64_t columns_with_soil = 0, thinner = 0;
+  for (const auto& [particles, number] : sum.soil_columns) columns_with_soil += number;
+  for (const auto& [particles, number] : sum.soil_columns) {
+    parts_->report.median_soil_column = double(particles);
+    if (2 * (thinner += number) >= columns_with_soil) break;
+  }
   LGIW_VALIDATE(sum.counts.total() <= most_particles, "too many particles: " + std::to_string(sum.counts.total()),
                 "at most 2e9 can be numbered", "Choose a larger dp or a smaller terrain.window.");
   return parts_->report;

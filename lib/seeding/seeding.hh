@@ -21,6 +21,7 @@ struct SeedingReport {
   std::vector<double> body_volumes;                           // of ParticleHeader::bodies, of the particles
   double max_water_depth = 0, slide_drop_height = 0;          // m; what the automatic sound speed rests on
   double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
+  double median_soil_column = 0;  // particles: median over the columns, one dp wide, that hold soil
 };
 
 /// Places the particles of a case: water and soil on a common lattice of spacing dp, walls as lib/seeding/walls.hh has

@@ -315,6 +315,31 @@ class ParticleSimulation final : public Simulation {
     if (n_water_) forces(water, water_.a, host(water_.id), double(p_.water_mass));
     if (n_soil_) forces(soil, soil_.a, host(soil_.id), double(p_.soil_mass));
   }
+  InternalForces internal_forces() override {
+    const T absorbing = p_.absorbing_rate;
+    p_.absorbing_rate = 0, without_walls_ = true;
+    compute_forces();
+    InternalForces out;
+    std::vector<double> water, soil;
+    download_accelerations(water, soil);
+    const auto add = [&](const auto& phase, const std::vector<double>& force) {
+      const auto id = host(phase.id);
+      const int active = host(phase.start)[grid_.cells];
+      for (int i = 0; i < active; ++i) {
+        double square = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double f = force[3 * std::size_t(id[i]) + k];
+          out.net[k] += f, square += f * f;
+        }
+        out.sum += std::sqrt(square);
+      }
+    };
+    if (n_water_) add(water_, water);
+    if (n_soil_) add(soil_, soil);
+    p_.absorbing_rate = absorbing, without_walls_ = false;
+    compute_forces();
+    return out;
+  }
 
   std::vector<RawArray> save() const override {
     std::vector<RawArray> out;
@@ -359,6 +384,7 @@ class ParticleSimulation final : public Simulation {
     self.water_.spare.all(add), self.soil_.spare.all(add), self.bodies_.spare.all(add);
     return sum;
   }
+  std::string device() const override { return backend_.name(); }
   std::string description() const override {
     const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
     return backend_.name() + ", " + number + " precision, " + std::to_string(D) + "-D, " +
@@ -570,6 +596,9 @@ class ParticleSimulation final : public Simulation {
     if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", n_bodies_);
     if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", n_soil_);
     if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", n_water_);
+    compute_forces();
+  }
+  void compute_forces() {
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
     if (n_soil_) {
@@ -720,7 +749,7 @@ class ParticleSimulation final : public Simulation {
   }
   WallView<Tr> wall_view() const {
     WallView<Tr> b;
-    b.n = n_wall_;
+    b.n = without_walls_ ? 0 : n_wall_;
     if (!b.n) return b;
     for (int k = 0; k < D; ++k)
       b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
@@ -733,7 +762,7 @@ class ParticleSimulation final : public Simulation {
 
   BodyView<Tr> body_view() const {
     BodyView<Tr> b;
-    b.n = n_bodies_;
+    b.n = without_walls_ ? 0 : n_bodies_;
     if (!b.n) return b;
     const Bodies& m = bodies_;
     for (int k = 0; k < D; ++k) {
@@ -821,6 +850,7 @@ class ParticleSimulation final : public Simulation {
   ModelParameters model_;
   NumberType type_;
   int n_water_, n_soil_, n_wall_, n_bodies_;  // n_wall_: those that stand still; n_bodies_: those that move
+  bool without_walls_ = false;                // while internal_forces() looks
   Parameters<Tr> p_;
   Grid<T, D> grid_;
   Water water_;

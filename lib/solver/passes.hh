@@ -859,6 +859,8 @@ LGIW_FN void finish_step(const Parameters<Tr>& p, const Limits<typename Tr::T>& 
   if (advance) {
     st.time += st.dt;
     ++st.step;
+    ++st.limited[st.limit];
+    if (st.dt < st.smallest_dt) st.smallest_dt = st.dt;
     st.dt_previous = st.dt;
     st.euler_countdown = st.euler_countdown == 0 ? 40 : st.euler_countdown - 1;
   }

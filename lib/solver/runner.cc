@@ -9,7 +9,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -19,8 +21,10 @@
 #include "files/run_file.hh"
 #include "measure/column_surface.hh"
 #include "physics/soil.hh"
+#include "seeding/run_estimate.hh"
 #include "solver/checkpoint.hh"
 #include "solver/diagnostics.hh"
+#include "solver/error_budget.hh"
 #include "solver/make_setup.hh"
 #include "solver/water_pressure.hh"
 
@@ -54,6 +58,18 @@ class SignalGuard {
 };
 
 const char* limit_name(int limit) { return limit == 0 ? "acoustic" : (limit == 1 ? "force" : "viscous"); }
+
+const char* precision_name(Precision p) {
+  return p == Precision::single_ ? "single" : (p == Precision::double_ ? "double" : "mixed");
+}
+
+/// Largest memory that this process has held so far (VmHWM), bytes; 0 where the system does not tell.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.compare(0, 6, "VmHWM:") == 0) return 1024 * std::atof(line.c_str() + 6);
+  return 0;
+}
 
 std::unique_ptr<Simulation> make_simulation(const Case& c, const ModelParameters& model, const InitialParticles& in,
                                             const std::function<void(const std::string&)>& log) {
@@ -106,6 +122,10 @@ class Runner {
     log("model: " + simulation_->description());
     describe();
     for (const std::string& line : simulation_->left_out()) log("left out: " + line);
+    resolution_ = resolution_of(c, data);
+    log(text_of(resolution_));
+    warnings_ = warnings_of(resolution_);
+    for (const std::string& warning : warnings_) log("warning: " + warning);
   }
 
   std::string run() {
@@ -315,15 +335,14 @@ class Runner {
                          water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
-    const auto row = diagnose(model_, s, st, header_.bed);
+    const bool with_frame = outputs_ % per_frame_ == 0 || outputs_ == last_output_;
+    DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
+    // Costs a step, and changes slowly.
+    row.emplace_back("momentum_residual", with_frame ? momentum_residual() : extremes_["last_momentum_residual"]);
     writer_->add_diagnostics(st.time, row);
-    for (const auto& [name, value] : row)
-      if (name.compare(0, 4, "max_") == 0)
-        extremes_[name] = std::max(extremes_[name], value);
-      else
-        extremes_["last_" + name] = value;
+    lgiw::accumulate(row, extremes_);
 
-    if (outputs_ % per_frame_ == 0 || outputs_ == last_output_) {
+    if (with_frame) {
       if (nw) {
         frame.pressure = s.water_pressure;
         frame.pressure.resize(nw + ns, 0.f);
@@ -335,6 +354,11 @@ class Runner {
       writer_->add_frame(frame);
     }
     ++outputs_;
+  }
+
+  double momentum_residual() {
+    const InternalForces f = simulation_->internal_forces();
+    return f.sum > 0 ? std::hypot(f.net[0], f.net[1], f.net[2]) / f.sum : 0;
   }
 
   void accumulate(const ColumnSurfaces& s, double time, bool water, bool soil) {
@@ -369,7 +393,9 @@ class Runner {
     c.outputs = outputs_, c.frames = writer_->frames(), c.surfaces = writer_->surfaces(),
     c.diagnostics = writer_->diagnostics();
     c.wall_time = elapsed();
-    c.extremes = extremes_, c.maxima = maxima_, c.initial_elevation = initial_elevation_;
+    c.extremes = extremes_;
+    c.extremes["stepping_time"] = stepping_earlier_ + seconds_taken_;
+    c.maxima = maxima_, c.initial_elevation = initial_elevation_;
     c.arrays = simulation_->save();
     write_checkpoint(checkpoint_path(options_.output), c);
   }
@@ -379,8 +405,9 @@ class Runner {
     Checkpoint c = std::move(resumed_);
     simulation_->restore(c.arrays);
     outputs_ = c.outputs, earlier_ = c.wall_time;
-    extremes_ = std::move(c.extremes), maxima_ = std::move(c.maxima),
-    initial_elevation_ = std::move(c.initial_elevation);
+    extremes_ = std::move(c.extremes);
+    stepping_earlier_ = extremes_["stepping_time"];
+    maxima_ = std::move(c.maxima), initial_elevation_ = std::move(c.initial_elevation);
     writer_ = std::make_unique<RunWriter>(
         RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
     char line[120];
@@ -393,10 +420,12 @@ class Runner {
   std::string finish() {
     writer_->write_maxima(maxima_);
     const StepState st = simulation_->state();
-    const double volume = std::pow(header_.dp, header_.dimension);
-    const double lost = volume * (st.lost_water * model_.water_density + st.lost_soil * model_.soil_density);
-    const double all = volume * (double(header_.counts.water) * model_.water_density +
-                                 double(header_.counts.soil) * model_.soil_density);
+    const ErrorBudget budget = error_budget(model_, header_, extremes_);
+    log(text_of(budget));
+    for (const std::string& warning : warnings_of(budget)) {
+      log("warning: " + warning);
+      warnings_.push_back(warning);
+    }
     nlohmann::ordered_json j;
     j["case"] = case_.name;
     j["particles"] = {{"water", header_.counts.water},
@@ -406,7 +435,7 @@ class Runner {
     j["steps"] = st.step;
     j["end_time_s"] = st.time;
     j["left_out"] = simulation_->left_out();
-    j["mass_error"] = all > 0 ? lost / all : 0.0;
+    j["mass_error"] = budget.mass_residual;
     j["density_error"] = extremes_["max_density_error"];
     j["lost"] = {{"water", st.lost_water}, {"soil", st.lost_soil}};
     j["below_bed"] = extremes_["last_below_bed"];
@@ -414,12 +443,36 @@ class Runner {
     if (header_.counts.soil) j["max_soil_speed_m_s"] = extremes_["max_soil_speed"];
     j["model"] = simulation_->description();
     j["bytes"] = simulation_->bytes();
+    j["dimension"] = header_.dimension;
+    j["particle_spacing_m"] = header_.dp;
+    j["h_over_dp"] = case_.numerics.h_over_dp;
+    j["kernel"] = model_.cubic_kernel ? "cubic" : "wendland";
+    j["scheme"] = case_.numerics.scheme;
+    j["precision"] = precision_name(case_.numerics.precision);
+    j["integrator"] = model_.verlet ? "verlet" : "leapfrog";
+    j["cfl"] = model_.cfl;
+    if (header_.counts.water) j["sound_speed_m_s"] = model_.sound_speed;
+    j["time_step_s"] = {{"smallest", st.step ? st.smallest_dt : 0.0},
+                        {"mean", st.step ? st.time / double(st.step) : 0.0}};
+    // The share of the steps that each condition limited.
+    for (int limit = 0; limit < 3; ++limit)
+      j["time_step_limited_by"][limit_name(limit)] = double(st.limited[limit]) / std::max(1.0, double(st.step));
+    j["resolution"] = json_of(resolution_);
+    j["error_budget"] = json_of(budget);
+    j["warnings"] = warnings_;
     const nlohmann::ordered_json reproducible = j;
     // What differs from run to run: in the file only with provenance.
     j["wall_time_s"] = elapsed();
     j["particle_steps_per_s"] =
         (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(elapsed(), 1e-9);
+    const double stepping = stepping_earlier_ + seconds_taken_;
+    j["stepping_time_s"] = stepping;
+    j["stepping_particle_steps_per_s"] =
+        (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(stepping, 1e-9);
+    j["peak_memory_bytes"] = peak_memory();
+    j["device"] = simulation_->device();
     j["threads"] = omp_get_max_threads();
+    j["version"] = version_string();
     for (const PhaseTime& t : simulation_->timings()) j["phase_seconds"][t.name] = t.seconds;
     writer_->write_summary((options_.provenance ? j : reproducible).dump(1));
     writer_->close();
@@ -454,7 +507,10 @@ class Runner {
   std::vector<std::array<double, 3>> gauge_points_;  // local
   std::string identity_, resume_note_;
   Checkpoint resumed_;
-  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0;
+  Resolution resolution_;
+  std::vector<std::string> warnings_;
+  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
+         stepping_earlier_ = 0;
   int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };
@@ -480,6 +536,9 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
   const double dt = p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30));
   const double steps = (c.output.end_time + p.settle_time) / dt;
+  if (!(particle_steps_per_s > 0))
+    particle_steps_per_s = particle_rate(c.dimension, data.soil.size() > 0, omp_get_max_threads());
+  const Resolution resolution = resolution_of(c, data);
   nlohmann::ordered_json j;
   j["case"] = c.name;
   j["particles"] = {{"water", data.header.counts.water},
@@ -492,6 +551,9 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["steps"] = std::llround(steps);
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;
   j["particle_steps_per_s_assumed"] = particle_steps_per_s;
+  j["resolution"] = json_of(resolution);
+  j["warnings"] = warnings_of(resolution);
+  j["expected_error"] = expected_error(resolution.slide_median, resolution.deepest_water).text;
   return j.dump(1);
 }
 

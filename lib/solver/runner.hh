@@ -18,7 +18,8 @@ struct RunOptions {
 };
 
 /// What a run would cost: counts, memory (of a simulation on the CPU, which is made but takes no step), time step,
-/// steps, seconds at `particle_steps_per_s`.
+/// steps, seconds at `particle_steps_per_s` (0: what run_estimate.hh holds for the threads in use), resolution,
+/// warnings and the class of error to be expected.
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s);
 
 /// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is

@@ -1,6 +1,7 @@
 // A running simulation behind one interface; the backend and the compiled kernels are chosen when it is made.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,6 +26,8 @@ struct StepState {
   int32_t euler_countdown = 0;  // Verlet: steps left until the next Euler step
   int32_t settling = 0;         // Settling
   int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous
+  double smallest_dt = 1e300;   // s, of the steps taken
+  int64_t limited[3] = {};      // steps taken, by what limited them
   int32_t lost_water = 0, lost_soil = 0;
   uint32_t failed_water = UINT32_MAX,
            failed_soil = UINT32_MAX;  // smallest id in a state that is not finite or out of range
@@ -37,6 +40,12 @@ struct ParticleState {
   std::vector<float> water_pressure, water_excess;  // [n]
   std::vector<float> soil_stress, soil_adps;        // [n,6], [n]
   std::vector<unsigned char> water_lost, soil_lost;
+};
+
+/// Forces of the moving particles on themselves and on each other, walls, gravity and absorbing sides left out, N.
+struct InternalForces {
+  std::array<double, 3> net{};  // 0 where action equals reaction
+  double sum = 0;               // of the magnitudes
 };
 
 /// One array of the restart state, as raw bytes.
@@ -65,11 +74,14 @@ class Simulation {
   virtual void download_bodies(std::vector<double>& x, std::vector<unsigned>& wall_id) const = 0;
   /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3].
   virtual void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const = 0;
+  /// Computes the forces of the present state once more without walls, and then again with them: as long as a step.
+  virtual InternalForces internal_forces() = 0;
   virtual std::vector<RawArray> save() const = 0;
   virtual void restore(const std::vector<RawArray>& arrays) = 0;  // throws InputError when they do not fit
   virtual std::vector<PhaseTime> timings() const = 0;
   virtual int64_t bytes() const = 0;            // held for particles and neighbours
   virtual std::string description() const = 0;  // backend, precision, kernel
+  virtual std::string device() const = 0;       // what it runs on
   /// What this scene does not need and therefore neither holds nor runs, with the bytes saved.
   virtual std::vector<std::string> left_out() const = 0;
 };

@@ -10,10 +10,9 @@ TEST(Estimate, ByHand) {
   c.dp = 0.01;
   c.water.present = true;
   c.output.end_time = 2;
-  SeedingReport report;
-  report.counts = {1000, 0, 500, 0};
+  const ParticleCounts counts{1000, 0, 500, 0};
   // h = 0.015 m, c = 27 m/s, v = 2.7 m/s: dt = 0.4 * 0.015 / 29.7 = 2.0202e-4 s; 2 s are 9900 steps.
-  const RunEstimate e = estimate_run(c, report, 27, 1.5e6);
+  const RunEstimate e = estimate_run(c, counts, 27, 1.5e6);
   EXPECT_NEAR(e.time_step, 2.0202e-4, 1e-8);
   EXPECT_EQ(e.steps, 9900);
   EXPECT_NEAR(e.run_time, 9.9, 1e-9);
@@ -29,11 +28,34 @@ TEST(Estimate, TheSoilsWaveSpeedCounts) {
   EXPECT_NEAR(soil_sound_speed(c), 25.944, 1e-3);
   EXPECT_NEAR(estimate_run(c, {}, 0, 1e6).time_step, 0.4 * 0.015 / (1.1 * 25.944), 1e-8);
   // Twice the precision, more memory.
-  SeedingReport report;
-  report.counts = {0, 1000000, 0, 0};
-  const double mixed = estimate_run(c, report, 0, 1e6).memory_bytes;
+  const ParticleCounts counts{0, 1000000, 0, 0};
+  const double mixed = estimate_run(c, counts, 0, 1e6).memory_bytes;
   c.numerics.precision = Precision::double_;
-  EXPECT_GT(estimate_run(c, report, 0, 1e6).memory_bytes, 1.2 * mixed);
+  EXPECT_GT(estimate_run(c, counts, 0, 1e6).memory_bytes, 1.2 * mixed);
+}
+
+TEST(Estimate, RatesGrowWithThreadsAndFallWithTheDimension) {
+  EXPECT_EQ(particle_rate(2, true, 4), 4 * particle_rate(2, true, 1));
+  EXPECT_GT(particle_rate(2, false, 1), particle_rate(3, false, 1));
+  EXPECT_GT(particle_rate(3, true, 2), 0);
+}
+
+TEST(Estimate, ErrorClassIsThatOfTheMeasurements) {
+  const ErrorClass fine = expected_error(23, 45);
+  EXPECT_EQ(fine.crest, 0.10);
+  EXPECT_EQ(fine.pressure, 0.0042);
+  EXPECT_EQ(fine.text,
+            "error to expect from what was measured: first crest within 10 % (slide thickness); pressure within 0.42 % "
+            "of rho g H (water depth)");
+  const ErrorClass coarse = expected_error(5, 8.5);
+  EXPECT_FALSE(coarse.crest);
+  EXPECT_FALSE(coarse.pressure);
+  EXPECT_EQ(coarse.text,
+            "error to expect from what was measured: first crest not measured below 11 particles (here 5) (slide "
+            "thickness); pressure not measured below 40 particles (here 8.5) (water depth)");
+  EXPECT_EQ(expected_error({}, 40).text,
+            "error to expect from what was measured: pressure within 0.42 % of rho g H (water depth)");
+  EXPECT_EQ(expected_error({}, {}).text, "error to expect from what was measured: nothing to go by");
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ terrain: {profile: [[0, 1], [1, 0], [2.5, 0]]}
 water: {level: 0.4}
 slide: {bodies: [[[0.3, 0.7], [0.75, 0.25], [0.75, 0.5], [0.5, 0.7]]]}
 soil: {young_modulus: 2.0e+6, friction_angle: 25}
+gauges: [{name: G1, x: 1.5}, {name: P1, x: 1.5, z: 0.1, quantity: pressure}]
 output: {end_time: 0.4, frame_interval: 0.1, surface_interval: 0.02}
 )";
 
@@ -33,6 +34,10 @@ dimension: 2
 particle_spacing: 0.01
 terrain: {profile: [[0, 0], [1.5, 0]], sides: {east: open}}
 water: {level: 0.2, bodies: [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]]]}
+gauges:
+- {name: G1, x: 0.1}
+- {name: P1, x: 0, z: 0.05, quantity: pressure}
+- {name: P2, x: 0.5, z: 0, quantity: pressure}
 output: {end_time: 0.6, frame_interval: 0.2, surface_interval: 0.01}
 )";
 

@@ -134,9 +134,58 @@ TEST_F(Run, SummaryHasWhatTheRunKnows) {
   EXPECT_EQ(s.at("max_water_speed_m_s"), largest("max_water_speed"));
   EXPECT_EQ(s.at("threads"), 2);
 
+  // What an accuracy table needs.
+  EXPECT_EQ(s.at("dimension"), 2);
+  EXPECT_EQ(s.at("particle_spacing_m"), 0.02);
+  EXPECT_EQ(s.at("h_over_dp"), 1.5);
+  EXPECT_EQ(s.at("kernel"), "wendland");
+  EXPECT_EQ(s.at("scheme"), "lgiw");
+  EXPECT_EQ(s.at("precision"), "mixed");
+  EXPECT_EQ(s.at("integrator"), "leapfrog");
+  EXPECT_EQ(s.at("cfl"), 0.4);
+  EXPECT_EQ(s.at("device"), "CPU");
+  EXPECT_FALSE(std::string(s.at("version")).empty());
+  EXPECT_GT(s.at("peak_memory_bytes"), s.at("bytes"));
+  EXPECT_GT(s.at("stepping_time_s"), 0);
+  EXPECT_LT(s.at("stepping_time_s"), s.at("wall_time_s"));
+  EXPECT_GT(s.at("stepping_particle_steps_per_s"), s.at("particle_steps_per_s"));
+  const auto& dt = s.at("time_step_s");
+  EXPECT_NEAR(double(dt.at("mean")) * double(s.at("steps")), s.at("end_time_s"), 1e-9);
+  EXPECT_LE(dt.at("smallest"), *std::min_element(rows.at("time_step").begin(), rows.at("time_step").end() - 1));
+  EXPECT_LE(dt.at("smallest"), dt.at("mean"));
+  double limited = 0;
+  for (const auto& [name, share] : s.at("time_step_limited_by").items()) limited += double(share);
+  EXPECT_NEAR(limited, 1, 1e-12);
+
+  // The error budget, from the table of diagnostics.
+  const auto& budget = s.at("error_budget");
+  EXPECT_EQ(budget.at("mass_residual"), 0);
+  EXPECT_EQ(budget.at("density_error_p999"), largest("density_error_p999"));
+  EXPECT_EQ(budget.at("mach_number"), largest("mach_number"));
+  EXPECT_EQ(budget.at("interpenetrating"), largest("interpenetrating"));
+  EXPECT_EQ(budget.at("momentum_residual"), largest("momentum_residual"));
+  EXPECT_LT(budget.at("momentum_residual"), 1e-5);
+  EXPECT_EQ(rows.at("interpenetrating").front(), 0);
+  const std::vector<double>& total = rows.at("total_energy");
+  double lowest = total.front(), rise = 0;
+  for (std::size_t k = 0; k < total.size(); ++k) {
+    EXPECT_NEAR(total[k],
+                rows.at("kinetic_energy")[k] + rows.at("potential_energy")[k] + rows.at("compression_energy")[k] +
+                    rows.at("elastic_energy")[k],
+                1e-9 * std::fabs(total[k]));
+    rise = std::max(rise, total[k] - lowest), lowest = std::min(lowest, total[k]);
+  }
+  EXPECT_LT(total.back(), total.front());
+  EXPECT_EQ(budget.at("energy_rise_J"), rise);
+  EXPECT_GT(budget.at("energy_released_J"), 0);
+  EXPECT_LT(budget.at("energy_created"), 0.01);
+  EXPECT_EQ(s.at("resolution").at("gauge_depth_particles").at("G1"), 20);
+  EXPECT_TRUE(s.at("warnings").is_array());
+
   // In the file, without provenance, only what is the same in every run.
   const json kept = json::parse(run.summary());
-  for (const char* name : {"wall_time_s", "particle_steps_per_s", "threads", "phase_seconds"})
+  for (const char* name : {"wall_time_s", "particle_steps_per_s", "threads", "phase_seconds", "stepping_time_s",
+                           "peak_memory_bytes", "device", "version"})
     EXPECT_FALSE(kept.contains(name)) << name;
   for (const auto& [name, value] : kept.items()) EXPECT_EQ(value, s.at(name)) << name;
 
@@ -206,6 +255,58 @@ TEST_F(Run, WaveArrivesLaterFartherAndNeverBeforeRitter) {
   EXPECT_LT(wet, std::size_t((0.6 * front + 0.03) / 0.01));
   EXPECT_TRUE(std::isnan(arrival.back()));  // 1.5 m away
   EXPECT_NEAR(elevation[5], 0.2, 0.01);     // where the column stood
+}
+
+TEST_F(Run, PressureGaugesAreRecordedAtEverySurface) {
+  scene("dam");
+  const RunReader run((*shop / "dam-run.h5").string());
+  ASSERT_EQ(run.header().pressure_gauges, (std::vector<std::string>{"P1", "P2"}));
+  const std::vector<float> wall = run.pressure(0), dry = run.pressure(1);
+  ASSERT_EQ(wall.size(), run.surface_times().size());
+  EXPECT_NEAR(wall[0], 9810 * 0.15, 0.01 * 9810 * 0.2);  // hydrostatic at the start
+  EXPECT_LT(wall.back(), 0.5f * wall[0]);                // the column has gone down
+  // Far away there is water only once the wave is there.
+  const std::vector<float> arrival = run.maximum("arrival");
+  const SurfaceMap& map = run.header().map;
+  const float there = arrival[std::size_t(std::lround((0.5 - map.x0) / map.dx))];
+  ASSERT_TRUE(std::isfinite(there));
+  for (std::size_t k = 0; k < dry.size(); ++k) {
+    if (run.surface_times()[k] < double(there) - 0.05) EXPECT_EQ(dry[k], 0) << run.surface_times()[k];
+    EXPECT_TRUE(std::isfinite(dry[k]));
+  }
+  const Outcome refused = shop->run("lgiw-run dam.h5 -o new.h5 --set gauges.1.z=5");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(lines(refused.err), 1) << refused.err;
+  EXPECT_NE(refused.err.find("pressure gauge P1 lies outside the domain (its z of 5"), std::string::npos)
+      << refused.err;
+  expect_no_trace("new");
+}
+
+TEST_F(Run, WarningsAreOneLineEachInTheLogAndInTheSummary) {
+  particles("dam");
+  // Water whose sound travels at 8 m/s: its front runs at 2 to 3 m/s.
+  const Outcome run = shop->run(
+      "lgiw-run dam.h5 -o soft.h5 --backend cpu --summary soft.json --set water.sound_speed=8 --set "
+      "output.end_time=0.3");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json s = summary("soft");
+  EXPECT_GT(s.at("error_budget").at("mach_number"), 0.1);
+  EXPECT_GT(s.at("error_budget").at("density_error_p999"), 0.01);
+  ASSERT_GE(s.at("warnings").size(), 2u);
+  std::size_t said = 0;
+  for (std::size_t at = run.err.find("lgiw-run: warning: "); at != std::string::npos;
+       at = run.err.find("lgiw-run: warning: ", at + 1))
+    ++said;
+  EXPECT_EQ(said, s.at("warnings").size()) << run.err;
+  for (const std::string warning : s.at("warnings"))
+    EXPECT_NE(run.err.find("lgiw-run: warning: " + warning + "\n"), std::string::npos) << warning;
+  EXPECT_NE(run.err.find("lgiw-run: error budget: mass 0"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("lgiw-run: resolution: water 20 deep, gauge G1 in 20"), std::string::npos) << run.err;
+  // What is known beforehand is said beforehand.
+  const json plan = json::parse(shop->run("lgiw-run dam.h5 --dry-run --set gauges.0.x=0.205").out);
+  EXPECT_TRUE(plan.at("warnings").empty());
+  EXPECT_EQ(plan.at("resolution").at("water_depth_particles"), 20);
+  EXPECT_NE(std::string(plan.at("expected_error")).find("pressure"), std::string::npos);
 }
 
 TEST_F(Run, WhatLeavesThroughAnOpenSideIsCountedAndTheRunGoesOn) {

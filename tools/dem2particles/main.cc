@@ -1,6 +1,7 @@
 // dem2particles: a case and its terrain to particles.
 #include <gdal_version.h>
 #include <hdf5.h>
+#include <omp.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -49,7 +50,7 @@ ordered_json volumes(int64_t count, double volume, double expected, double surve
 
 ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& seeder, double rate) {
   const SeedingReport& r = seeder.report();
-  const RunEstimate run = estimate_run(c, r, seeder.header().sound_speed, rate);
+  const RunEstimate run = estimate_run(c, r.counts, seeder.header().sound_speed, rate);
   ordered_json j;
   j["case"] = c.name;
   j["dimension"] = c.dimension;
@@ -80,6 +81,12 @@ ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& see
               {"end_time", c.output.end_time},
               {"rate", rate},
               {"run_time_s", run.run_time}};
+  const auto across = [](double particles) { return particles > 0 ? std::optional<double>(particles) : std::nullopt; };
+  const ErrorClass error =
+      expected_error(across(r.median_soil_column), across(r.counts.water > 0 ? r.max_water_depth / c.dp : 0));
+  j["resolution"] = {{"slide_thickness_particles", r.median_soil_column},
+                     {"water_depth_particles", r.counts.water > 0 ? r.max_water_depth / c.dp : 0}};
+  j["expected_error"] = error.text;
   j["notes"] = model.notes;
   return j;
 }
@@ -128,6 +135,10 @@ std::string report_text(const ordered_json& j) {
                r["memory_bytes"].get<double>() / 1e6, r["time_step"].get<double>(), r["steps"].get<double>(),
                r["end_time"].get<double>(), format_duration(r["run_time_s"].get<double>()).c_str(),
                r["rate"].get<double>());
+  text += line("slide %.3g particles thick (median), water %.3g deep",
+               j["resolution"]["slide_thickness_particles"].get<double>(),
+               j["resolution"]["water_depth_particles"].get<double>());
+  text += j["expected_error"].get<std::string>() + "\n";
   for (const auto& note : j["notes"]) text += note.get<std::string>() + "\n";
   return text;
 }
@@ -164,7 +175,10 @@ int run(const Options& options, const std::string& command) {
   LGIW_VALIDATE(!c.has_soil() || report.counts.soil > 0, "there is no soil",
                 "no lattice point lies in it at a spacing of " + std::to_string(c.dp) + " m",
                 "Choose a smaller particle_spacing or a thicker slide");
-  const double rate = options.rate > 0 ? options.rate : default_particle_rate(c.dimension);
+  const double rate = options.rate > 0
+                          ? options.rate
+                          : particle_rate(c.dimension, report.counts.soil > 0,
+                                          c.numerics.threads > 0 ? c.numerics.threads : omp_get_max_threads());
   const ordered_json result = summary(c, model, seeder, rate);
 
   if (!options.dry_run) {

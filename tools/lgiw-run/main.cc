@@ -27,9 +27,6 @@ struct Options {
   CommonOptions common;
 };
 
-/// Measured on two cores, particle-steps per second (docs/performance.md); what --dry-run assumes.
-double assumed_rate(int dimension) { return (dimension == 2 ? 3.0e6 : 0.9e6) * omp_get_max_threads(); }
-
 void write_diagnostics(const std::string& run, const std::string& path, bool overwrite) {
   const auto columns = RunReader(run).diagnostics();
   std::string text = "time";
@@ -95,7 +92,7 @@ int run(const Options& o, int argc, char** argv) {
                 "it has neither water nor soil particles", "check water.level, water.seed and slide of the case");
   if (o.threads == 0 && c.numerics.threads > 0) omp_set_num_threads(c.numerics.threads);
   if (o.dry_run) {
-    std::cout << plan_json(c, data, o.rate > 0 ? o.rate : assumed_rate(c.dimension)) << "\n";
+    std::cout << plan_json(c, data, o.rate) << "\n";
     return 0;
   }
 
