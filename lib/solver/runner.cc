@@ -336,11 +336,13 @@ class Runner {
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
     const bool with_frame = outputs_ % per_frame_ == 0 || outputs_ == last_output_;
+    const double since = elapsed();
     DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
     // Costs a step, and changes slowly.
     row.emplace_back("momentum_residual", with_frame ? momentum_residual() : extremes_["last_momentum_residual"]);
     writer_->add_diagnostics(st.time, row);
     lgiw::accumulate(row, extremes_);
+    diagnostics_seconds_ += elapsed() - since;
 
     if (with_frame) {
       if (nw) {
@@ -474,6 +476,7 @@ class Runner {
     j["threads"] = omp_get_max_threads();
     j["version"] = version_string();
     for (const PhaseTime& t : simulation_->timings()) j["phase_seconds"][t.name] = t.seconds;
+    j["phase_seconds"]["diagnostics"] = diagnostics_seconds_;
     writer_->write_summary((options_.provenance ? j : reproducible).dump(1));
     writer_->close();
     writer_.reset();
@@ -510,7 +513,7 @@ class Runner {
   Resolution resolution_;
   std::vector<std::string> warnings_;
   double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
-         stepping_earlier_ = 0;
+         stepping_earlier_ = 0, diagnostics_seconds_ = 0;
   int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };
