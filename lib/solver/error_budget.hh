@@ -21,7 +21,7 @@ constexpr double gauge_particles = 4;      // fewer in the water below a gauge
 constexpr double mach_number = 0.1;        // density varies with its square: 1 %
 constexpr double density_error = 0.01;     // of the 99.9th percentile
 constexpr double energy_created = 0.01;    // of the energy released
-constexpr double interpenetrating = 0.01;  // of the particles of the smaller phase
+constexpr double interpenetrating = 0.05;  // of the particles of the smaller phase; a front tears off some grains
 }  // namespace warn_at
 
 /// How many particles lie across what matters, at the start: counted in columns of particles one dp wide.

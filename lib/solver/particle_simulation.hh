@@ -316,6 +316,11 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_) forces(soil, soil_.a, host(soil_.id), double(p_.soil_mass));
   }
   InternalForces internal_forces() override {
+    // What the next step reads is put back: copies cost less than a second pass.
+    std::vector<std::vector<T>> kept;
+    for (int k = 0; k < D; ++k) kept.push_back(host(water_.a[k])), kept.push_back(host(soil_.a[k]));
+    Limits<T> limits;
+    backend_.download(&limits, limits_);
     const T absorbing = p_.absorbing_rate;
     p_.absorbing_rate = 0, without_walls_ = true;
     compute_forces();
@@ -337,7 +342,11 @@ class ParticleSimulation final : public Simulation {
     if (n_water_) add(water_, water);
     if (n_soil_) add(soil_, soil);
     p_.absorbing_rate = absorbing, without_walls_ = false;
-    compute_forces();
+    for (int k = 0; k < D; ++k) {
+      if (n_water_) backend_.upload(water_.a[k], kept[2 * std::size_t(k)].data());
+      if (n_soil_) backend_.upload(soil_.a[k], kept[2 * std::size_t(k) + 1].data());
+    }
+    backend_.upload(limits_, &limits);
     return out;
   }
 

@@ -338,7 +338,7 @@ class Runner {
     const bool with_frame = outputs_ % per_frame_ == 0 || outputs_ == last_output_;
     const double since = elapsed();
     DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
-    // Costs a step, and changes slowly.
+    // Costs part of a step, and changes slowly.
     row.emplace_back("momentum_residual", with_frame ? momentum_residual() : extremes_["last_momentum_residual"]);
     writer_->add_diagnostics(st.time, row);
     lgiw::accumulate(row, extremes_);

@@ -74,7 +74,7 @@ class Simulation {
   virtual void download_bodies(std::vector<double>& x, std::vector<unsigned>& wall_id) const = 0;
   /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3].
   virtual void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const = 0;
-  /// Computes the forces of the present state once more without walls, and then again with them: as long as a step.
+  /// Computes the forces of the present state once more, without walls; the state stays as it is.
   virtual InternalForces internal_forces() = 0;
   virtual std::vector<RawArray> save() const = 0;
   virtual void restore(const std::vector<RawArray>& arrays) = 0;  // throws InputError when they do not fit

@@ -271,7 +271,7 @@ bool mentions(const std::vector<std::string>& lines, const std::string& part) {
 TEST(Warnings, OnePerLimitAndNoneBelow) {
   ErrorBudget b;
   b.mach_number = 0.1, b.density_error_p999 = 0.01, b.density_error = 0.5, b.energy_created = 0.01;
-  b.interpenetrating = 10, b.interpenetrating_share = 0.01;
+  b.interpenetrating = 10, b.interpenetrating_share = 0.05;
   EXPECT_TRUE(warnings_of(b).empty()) << "at the limits";
   const auto expect_one = [](const ErrorBudget& budget, const std::string& part) {
     const auto lines = warnings_of(budget);
@@ -285,8 +285,8 @@ TEST(Warnings, OnePerLimitAndNoneBelow) {
   expect_one(one, "the density error of the water (99.9th percentile) reached 2.1 %, above 1 %");
   one = b, one.energy_created = 0.03;
   expect_one(one, "energy was created: 3 % of what was released, above 1 %");
-  one = b, one.interpenetrating = 30, one.interpenetrating_share = 0.03;
-  expect_one(one, "30 particles were enclosed by the other phase, 3 % of the smaller one, above 1 %");
+  one = b, one.interpenetrating = 30, one.interpenetrating_share = 0.06;
+  expect_one(one, "30 particles were enclosed by the other phase, 6 % of the smaller one, above 5 %");
   EXPECT_TRUE(warnings_of(ErrorBudget{}).empty());
 
   Resolution r;
