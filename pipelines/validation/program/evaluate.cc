@@ -78,9 +78,20 @@ Row row_of(const Run& run, const std::string& case_name, const std::string& quan
   return row;
 }
 
-std::string with_series(std::string text, const std::string& series) {
-  const std::size_t at = text.find("{series}");
-  return at == std::string::npos ? text : text.replace(at, 8, series);
+Measure measure_of(const Keys& keys) {
+  const auto measure = measures().find(keys.text("measure"));
+  LGIW_VALIDATE(measure != measures().end(), keys.where() + ": there is no measure " + keys.text("measure"),
+                "the program knows others", "see validation/README.md");
+  return measure->second;
+}
+
+/// The value of a check, less `minus` and over `over`; so is the reference that the measure knows, the one that the
+/// check gives is not.
+Value value_of(const Run& run, const Keys& keys, Measure measure, const Expectation& expected) {
+  Value value = measure(run, keys);
+  for (double* x : {&value.measured, &value.reference}) *x = (*x - keys.number("minus", 0)) / keys.number("over", 1);
+  if (keys.has("reference") || expected.limit) value.reference = expected.reference;
+  return value;
 }
 
 class Checks {
@@ -110,9 +121,7 @@ class Checks {
 
  private:
   std::vector<Row> rows_of(const Keys& keys) const {
-    const auto measure = measures().find(keys.text("measure"));
-    LGIW_VALIDATE(measure != measures().end(), keys.where() + ": there is no measure " + keys.text("measure"),
-                  "the program knows others", "see validation/README.md");
+    const Measure measure = measure_of(keys);
     std::set<std::string> done;
     std::vector<Row> rows;
     for (const Run& first : runs_) {
@@ -120,22 +129,21 @@ class Checks {
       if (!done.insert(series).second) continue;
       if (!quick_ && fnmatch(keys.text("series", "*").c_str(), series.c_str(), 0) != 0) continue;
       if (quick_ && !keys.has("quick")) continue;
-      for (Row& row : rows_of_series(keys, measure->second, series)) rows.push_back(std::move(row));
+      const Keys own(keys.node(), folder_, keys.where(), series);
+      for (Row& row : rows_of_series(own, measure, series)) rows.push_back(std::move(row));
     }
     return rows;
   }
 
   std::vector<Row> rows_of_series(const Keys& keys, Measure measure, const std::string& series) const {
     const Expectation expected = expectation(keys, quick_);
-    const std::string quantity = with_series(keys.text("quantity"), series), unit = keys.text("unit", "-");
+    const std::string quantity = keys.text("quantity"), unit = keys.text("unit", "-");
     std::vector<Row> rows;
     for (const Run& run : runs_) {
       if (!quick_ && run.series() != series) continue;
-      const Value value = measure(run, keys);
-      const double offset = keys.number("minus", 0), scale = keys.number("over", 1);
+      const Value value = value_of(run, keys, measure, expected);
       Row row = row_of(run, name_, quantity, unit);
-      row.measured = (value.measured - offset) / scale;
-      row.reference = keys.has("reference") || expected.limit ? expected.reference : (value.reference - offset) / scale;
+      row.measured = value.measured, row.reference = value.reference;
       row.relative = expected.bar.relative;
       row.error = error_of(expected, row.measured, row.reference);
       rows.push_back(row);
@@ -165,6 +173,13 @@ class Checks {
 };
 
 }  // namespace
+
+Judgement judge(const Run& run, const Keys& keys) {
+  Expectation expected = expectation(keys, false);
+  expected.bar.relative = true;
+  const Value value = value_of(run, keys, measure_of(keys), expected);
+  return {value.measured, error_of(expected, value.measured, value.reference)};
+}
 
 std::vector<Row> evaluate(const std::string& case_folder, const std::string& results_folder, bool quick) {
   return Checks(case_folder, results_folder, quick).rows();

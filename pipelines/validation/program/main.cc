@@ -8,6 +8,7 @@
 #include "base/error.hh"
 #include "base/tool_main.hh"
 #include "evaluate.hh"
+#include "operators.hh"
 #include "report.hh"
 
 namespace {
@@ -17,6 +18,7 @@ using namespace lgiw::validation;
 
 struct Options {
   std::string case_folder, results, table, output = "-";
+  std::vector<std::string> tables;
   bool quick = false;
   CommonOptions common;
 };
@@ -31,10 +33,19 @@ int check(const Options& o) {
   return std::any_of(rows.begin(), rows.end(), [](const Row& r) { return r.judged() && !r.pass(); });
 }
 
+int study_operators(const Options& o) {
+  write_text_file(o.output, rows_csv(operator_rows()), o.common.overwrite);
+  return 0;
+}
+
 int merge(const Options& o) {
-  const std::string rows = merged_rows(o.results);
-  write_text_file(o.output, rows, o.common.overwrite);
+  write_text_file(o.output, joined_tables(tables_of(o.results)), o.common.overwrite);
   if (o.output != "-" && !o.common.quiet) std::cout << summary_text(read_csv(o.output));
+  return 0;
+}
+
+int join(const Options& o) {
+  write_text_file(o.output, joined_tables(o.tables), o.common.overwrite);
   return 0;
 }
 
@@ -54,8 +65,11 @@ int main(int argc, char** argv) {
   check_command->add_option("CASE", o.case_folder, "folder with runs.txt and checks.yaml")->required();
   check_command->add_option("RESULTS", o.results, "folder of the runs' folders")->required();
   check_command->add_flag("--quick", o.quick, "the runs and bars of the tests; exit status 1 when a bar is missed");
+  CLI::App* operators_command = app.add_subcommand("operators", "SPH operators on disordered particles, as CSV");
   CLI::App* merge_command = app.add_subcommand("merge", "all cases: one CSV, and on stdout what is met");
   merge_command->add_option("RESULTS", o.results, "folder of the cases' results")->required();
+  CLI::App* join_command = app.add_subcommand("join", "tables with the same columns as one");
+  join_command->add_option("CSV", o.tables, "the tables")->required();
   CLI::App* table_command = app.add_subcommand("table", "the CSV as a Markdown table");
   table_command->add_option("CSV", o.table, "validation.csv")->required();
   app.add_option("-o,--output", o.output, "file to write; - is standard output");
@@ -63,6 +77,8 @@ int main(int argc, char** argv) {
   app.footer("Example: lgiw-validation check pipelines/validation/tank pipelines/out/validation/tank");
   return tool_main(app, argc, argv, [&] {
     if (check_command->parsed()) return check(o);
+    if (operators_command->parsed()) return study_operators(o);
+    if (join_command->parsed()) return join(o);
     if (merge_command->parsed()) return merge(o);
     return tabulate(o);
   });

@@ -4,14 +4,18 @@
 
 namespace lgiw::validation {
 
-Keys::Keys(const YAML::Node& node, std::string folder, std::string where)
-    : node_(node), folder_(std::move(folder)), where_(std::move(where)) {}
+Keys::Keys(const YAML::Node& node, std::string folder, std::string where, std::string series)
+    : node_(node), folder_(std::move(folder)), where_(std::move(where)), series_(std::move(series)) {}
 
 bool Keys::has(const std::string& key) const { return bool(node_[key]); }
 
 std::string Keys::text(const std::string& key) const {
   LGIW_VALIDATE(has(key), where_ + ": " + key + " is missing", "this measure needs it", "add it to the check");
-  return node_[key].as<std::string>();
+  std::string word = node_[key].as<std::string>();
+  const std::string place = "{series}";
+  for (std::size_t at = word.find(place); at != std::string::npos; at = word.find(place))
+    word.replace(at, place.size(), series_);
+  return word;
 }
 std::string Keys::text(const std::string& key, const std::string& otherwise) const {
   return has(key) ? text(key) : otherwise;
@@ -34,7 +38,7 @@ CsvFile Keys::csv(const std::string& key) const { return read_csv(folder_ + "/" 
 const std::map<std::string, Measure>& measures() {
   static const std::map<std::string, Measure> all = [] {
     std::map<std::string, Measure> m;
-    add_states(m), add_profiles(m), add_series(m), add_motion(m);
+    add_states(m), add_profiles(m), add_series(m), add_pressures(m), add_motion(m);
     return m;
   }();
   return all;

@@ -18,7 +18,8 @@ constexpr double last_time = std::numeric_limits<double>::infinity();
 /// The keys of a check; asking for one that is not there without a default throws InputError.
 class Keys {
  public:
-  Keys(const YAML::Node& node, std::string folder, std::string where);
+  /// `series` takes the place of {series} in texts.
+  Keys(const YAML::Node& node, std::string folder, std::string where, std::string series = "");
   bool has(const std::string& key) const;
   double number(const std::string& key) const;
   double number(const std::string& key, double otherwise) const;
@@ -33,7 +34,7 @@ class Keys {
 
  private:
   YAML::Node node_;
-  std::string folder_, where_;
+  std::string folder_, where_, series_;
 };
 
 /// A number of a run, and the reference that the measure itself knows (NaN: the check gives it).
@@ -46,9 +47,10 @@ using Measure = Value (*)(const Run&, const Keys&);
 const std::map<std::string, Measure>& measures();
 
 // Topics: each adds its measures.
-void add_states(std::map<std::string, Measure>& all);    // states.cc: pressure, speeds, drifts, crossings
-void add_profiles(std::map<std::string, Measure>& all);  // profiles.cc: fronts, surfaces, failure lines
-void add_series(std::map<std::string, Measure>& all);    // series.cc: gauges, diagnostics, tables of the tools
-void add_motion(std::map<std::string, Measure>& all);    // motion.cc: accelerations, waves' periods and decay
+void add_states(std::map<std::string, Measure>& all);     // states.cc: pressure, speeds, drifts, crossings
+void add_profiles(std::map<std::string, Measure>& all);   // profiles.cc: fronts, surfaces, failure lines
+void add_series(std::map<std::string, Measure>& all);     // series.cc: gauges, diagnostics, tables of the tools
+void add_pressures(std::map<std::string, Measure>& all);  // pressures.cc: pressure gauges
+void add_motion(std::map<std::string, Measure>& all);     // motion.cc: accelerations, waves' periods and decay
 
 }  // namespace lgiw::validation

@@ -59,7 +59,7 @@ Value period(const Run& run, const Keys& keys) {
 }
 
 /// Rate at which the height from trough to crest of an oscillating gauge decays, 1/s: least squares of the logarithm of
-/// the range in each cycle.
+/// the range in each cycle. Reference, where `wavelength` is given: 2 nu k^2, nu = alpha c h / 8 (2-D).
 Value decay_rate(const Run& run, const Keys& keys) {
   const Series s = between(gauge_series(run, keys.text("gauge")), keys.number("from", 0), keys.number("to", last_time));
   const std::vector<double> times = rises(s);
@@ -70,8 +70,14 @@ Value decay_rate(const Run& run, const Keys& keys) {
     const double t = (times[k] + times[k + 1]) / 2;
     n += 1, t1 += t, t2 += t * t, y1 += y, ty += t * y;
   }
-  if (n < 2) return {};
-  return {-(n * ty - t1 * y1) / (n * t2 - t1 * t1)};
+  Value rate;
+  if (keys.has("wavelength")) {
+    const double k = 2 * std::numbers::pi / keys.number("wavelength");
+    rate.reference = 2 * k * k * run.c.water.viscosity_alpha * run.header().particles.sound_speed *
+                     run.c.numerics.h_over_dp * run.dp() / 8;
+  }
+  if (n >= 2) rate.measured = -(n * ty - t1 * y1) / (n * t2 - t1 * t1);
+  return rate;
 }
 
 }  // namespace

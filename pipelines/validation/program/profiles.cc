@@ -4,6 +4,7 @@
 
 #include "base/error.hh"
 #include "measure/section_profiles.hh"
+#include "measure/section_runup.hh"
 #include "measures.hh"
 
 namespace lgiw::validation {
@@ -23,9 +24,9 @@ std::vector<float> surface_at(const Run& run, const Keys& keys, double time) {
 /// The farthest x (case coordinates) that the surface of `phase` reaches without a gap, going east from `source` (the
 /// west end), at time `at`: half a cell beyond the last node that has one, or where what lies on the bed gets thinner
 /// than `thickness`. Loose grains and drops ahead of it do not count.
-Value front(const Run& run, const Keys& keys) {
+double front_at(const Run& run, const Keys& keys, double time) {
   const SurfaceMap& map = run.header().map;
-  const std::vector<float> z = surface_at(run, keys, keys.time("at"));
+  const std::vector<float> z = surface_at(run, keys, time);
   const double source = keys.number("source", map.x0 + run.origin(0)) - run.origin(0);
   std::size_t i = std::size_t(std::clamp((source - map.x0) / map.dx, 0.0, double(map.nx - 1)));
   LGIW_VALIDATE(std::isfinite(z[i]), keys.where() + ": there is no surface at x = " + std::to_string(source),
@@ -37,7 +38,37 @@ Value front(const Run& run, const Keys& keys) {
   while (i + 1 < map.nx && std::isfinite(z[i + 1]) && !(above(i + 1) < 0)) ++i;
   double beyond = 0.5;
   if (thinnest > 0 && i + 1 < map.nx && above(i + 1) < 0) beyond = above(i) / (above(i) - above(i + 1));
-  return {map.x0 + (double(i) + beyond) * map.dx + run.origin(0)};
+  return map.x0 + (double(i) + beyond) * map.dx + run.origin(0);
+}
+Value front(const Run& run, const Keys& keys) { return {front_at(run, keys, keys.time("at"))}; }
+
+/// Time, s, from which the front stands at or beyond `x`; `phase`, `source`, `thickness` as above.
+double front_time(const Run& run, const Keys& keys, double x) {
+  const std::vector<double>& times = run.file->surface_times();
+  double x_before = missing, t_before = missing;
+  for (double t : times) {
+    const double now = front_at(run, keys, t);
+    if (now >= x) return std::isnan(t_before) ? t : t_before + (t - t_before) * (x - x_before) / (now - x_before);
+    x_before = now, t_before = t;
+  }
+  return missing;
+}
+/// Mean speed of the front between `x` and `x_to`, m/s.
+Value front_speed(const Run& run, const Keys& keys) {
+  const double x = keys.number("x"), to = keys.number("x_to");
+  return {(to - x) / (front_time(run, keys, to) - front_time(run, keys, x))};
+}
+Value front_arrival(const Run& run, const Keys& keys) { return {front_time(run, keys, keys.number("x"))}; }
+
+/// Highest run-up above still water on the bank at `to_x`, seen from the lake at `from_x`, m.
+Value runup(const Run& run, const Keys& keys) {
+  Section section;
+  section.name = "bank";
+  section.points = {{keys.number("from_x"), 0}, {keys.number("to_x"), 0}};
+  RunupRecorder recorder(run.header(), {section});
+  for (std::size_t k = 0; k < run.file->surface_times().size(); ++k)
+    recorder.add(run.file->surface_times()[k], run.file->water_surface(k));
+  return {recorder.sections()[0].max_height};
 }
 
 /// x (case coordinates) that the share `quantile` of a phase's particles does not pass at time `at`.
@@ -138,6 +169,9 @@ Value failure_line(const Run& run, const Keys& keys) {
 
 void add_profiles(std::map<std::string, Measure>& all) {
   all["front"] = front;
+  all["front_speed"] = front_speed;
+  all["front_arrival"] = front_arrival;
+  all["runup"] = runup;
   all["quantile_x"] = quantile_x;
   all["profile_rms"] = profile_rms;
   all["profile_nrmse"] = profile_nrmse;

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <sstream>
 
 #include "base/error.hh"
 #include "row.hh"
@@ -21,21 +19,29 @@ std::string cell(const CsvFile& rows, std::size_t k, const std::string& column) 
 
 }  // namespace
 
-std::string merged_rows(const std::string& results_folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(results_folder))
-    if (fs::exists(entry.path() / "rows.csv")) files.push_back(entry.path() / "rows.csv");
-  LGIW_VALIDATE(!files.empty(), results_folder + " holds no rows.csv", "no benchmark has been judged yet",
-                "run make -C pipelines validate");
-  std::sort(files.begin(), files.end());
-  std::string text = rows_csv({});
-  for (const fs::path& file : files) {
+std::string joined_tables(const std::vector<std::string>& files) {
+  std::string text, header;
+  for (const std::string& file : files) {
     std::ifstream in(file);
     std::string line;
     std::getline(in, line);
+    LGIW_VALIDATE(!line.empty(), file + " holds no table", "it cannot be joined", "make it again");
+    if (text.empty()) text = line + "\n", header = line;
+    LGIW_VALIDATE(line == header, file + " has other columns than " + files[0], "it was made by another version",
+                  "remove it and make it again");
     while (std::getline(in, line)) text += line + "\n";
   }
   return text;
+}
+
+std::vector<std::string> tables_of(const std::string& results_folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(results_folder))
+    if (fs::exists(entry.path() / "rows.csv")) files.push_back((entry.path() / "rows.csv").string());
+  LGIW_VALIDATE(!files.empty(), results_folder + " holds no rows.csv", "no benchmark has been judged yet",
+                "run make -C pipelines validate");
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 std::string summary_text(const CsvFile& rows) {

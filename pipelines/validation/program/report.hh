@@ -2,13 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "csv_file.hh"
 
 namespace lgiw::validation {
 
-/// The rows of all RESULTS/*/rows.csv under one header, in the order of the cases' names.
-std::string merged_rows(const std::string& results_folder);
+/// Tables with one header under it, in the order given; throws InputError where headers differ.
+std::string joined_tables(const std::vector<std::string>& files);
+/// All RESULTS/*/rows.csv in the order of the cases' names.
+std::vector<std::string> tables_of(const std::string& results_folder);
 /// What a person reads: a line for every quantity that has a bar, measured against it, and how many bars are met.
 std::string summary_text(const CsvFile& rows);
 /// The same as a Markdown table, with the errors of the coarser runs beside that of the finest.

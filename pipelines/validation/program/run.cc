@@ -40,10 +40,10 @@ std::size_t Run::surface_index(double time) const {
 }
 Frame Run::frame_at(double time) const { return file->frame(frame_index(time)); }
 
-std::vector<Run> load_runs(const std::string& case_folder, const std::string& results_folder) {
-  const std::string list = case_folder + "/runs.txt";
-  std::ifstream in(list);
-  LGIW_VALIDATE(in.good(), list + " cannot be read", "it names the runs of the case", "name a folder of validation/");
+std::vector<Run> load_runs(const std::string& case_folder, const std::string& results_folder, const std::string& list) {
+  std::ifstream in(case_folder + "/" + list);
+  LGIW_VALIDATE(in.good(), case_folder + "/" + list + " cannot be read", "it names the runs of the case",
+                "name a folder of validation/");
   std::vector<Run> runs;
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);

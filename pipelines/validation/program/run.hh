@@ -38,7 +38,8 @@ struct Run {
   std::size_t surface_index(double time) const;
 };
 
-/// The runs that `runs.txt` of a case names and that are there, in its order.
-std::vector<Run> load_runs(const std::string& case_folder, const std::string& results_folder);
+/// The runs that the `list` of a case names and that are there, in its order.
+std::vector<Run> load_runs(const std::string& case_folder, const std::string& results_folder,
+                           const std::string& list = "runs.txt");
 
 }  // namespace lgiw::validation

@@ -28,7 +28,14 @@ Extreme extreme(const Series& s, bool highest) {
   const auto at =
       highest ? std::max_element(s.value.begin(), s.value.end()) : std::min_element(s.value.begin(), s.value.end());
   const std::size_t k = std::size_t(at - s.value.begin());
-  return {s.value[k], s.time[k]};
+  if (k == 0 || k + 1 == s.value.size()) return {s.value[k], s.time[k]};
+  // The vertex of the parabola through it and its neighbours: references are sampled coarsely.
+  const double a = s.value[k - 1] - s.value[k], b = s.value[k + 1] - s.value[k];
+  const double p = s.time[k - 1] - s.time[k], q = s.time[k + 1] - s.time[k];
+  const double curvature = (a / p - b / q) / (p - q), slope = a / p - curvature * p;
+  if (curvature == 0) return {s.value[k], s.time[k]};
+  const double t = -slope / (2 * curvature);
+  return {s.value[k] + slope * t / 2, s.time[k] + t};
 }
 
 namespace {
@@ -94,6 +101,13 @@ Value celerity(const Run& run, const Keys& keys) {
   return {(x[1] - x[0]) / (t[1] - t[0]), std::sqrt(-run.c.gravity[2] * (keys.number("depth") + a))};
 }
 
+/// From the lowest to the highest of a gauge, m.
+Value wave_height(const Run& run, const Keys& keys) {
+  const Pair p = gauge_pair(run, keys);
+  return {extreme(p.measured, true).value - extreme(p.measured, false).value,
+          extreme(p.reference, true).value - extreme(p.reference, false).value};
+}
+
 double reduce(const Series& s, const Keys& keys) {
   const std::string how = keys.text("reduce", "last");
   if (s.value.empty()) return missing;
@@ -152,6 +166,7 @@ void add_series(std::map<std::string, Measure>& all) {
   all["crest_time"] = crest_time;
   all["trough_time"] = trough_time;
   all["gauge_nrmse"] = gauge_nrmse;
+  all["wave_height"] = wave_height;
   all["celerity"] = celerity;
   all["diagnostic"] = diagnostic;
   all["table"] = table;
