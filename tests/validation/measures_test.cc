@@ -43,11 +43,11 @@ TEST(Rows, ErrorsAndBarsInUnitsOrPercent) {
 TEST(Csv, ColumnsByNameAndNumberAndFilter) {
   Workshop shop;
   write_bytes(shop / "t.csv", "# made by hand\ntime_s,\"a, b\",gauge\n0,1,G1\n1,nan,G2\n2,3,G1\n");
-  const CsvFile csv = validation::read_csv((shop / "t.csv").string());
+  const CsvFile csv((shop / "t.csv").string());
   EXPECT_EQ(csv.numbers("2", "gauge", "G1"), (std::vector<double>{1, 3}));
-  EXPECT_EQ(csv.column("a, b"), 1u);
-  EXPECT_THROW(csv.column("b"), std::exception);
-  EXPECT_THROW(csv.column("4"), std::exception);
+  EXPECT_EQ(csv.index("a, b"), 1u);
+  EXPECT_THROW(csv.index("b"), std::exception);
+  EXPECT_THROW(csv.index("4"), std::exception);
   EXPECT_DOUBLE_EQ(interpolate({0, 2}, {1, 3}, 0.5), 1.5);
   EXPECT_TRUE(std::isnan(interpolate({0, 2}, {1, 3}, 2.5)));
 }

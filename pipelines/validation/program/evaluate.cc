@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.hh"
+#include "measure/convergence.hh"
 #include "measures.hh"
 
 namespace lgiw::validation {
@@ -154,7 +155,7 @@ class Checks {
     return rows;
   }
 
-  /// The change from the second finest run to the finest.
+  /// The change from the second finest run to the finest; observed order and GCI, or the spread where there is none.
   void add_convergence(const Keys& keys, std::vector<Row>& rows) const {
     Row row = rows.back();
     const double coarser = rows[rows.size() - 2].measured;
@@ -163,7 +164,20 @@ class Checks {
     row.reference = coarser;
     row.relative = bar.relative, row.bar = bar.value;
     row.error = (row.measured - coarser) / (bar.relative ? std::abs(coarser) : 1);
+    std::vector<SpacingResult> results;
+    for (const Row& r : rows) results.push_back({r.dp, r.measured});
     rows.push_back(row);
+    const Convergence convergence = convergence_of(results);
+    Row numbers = rows.front();
+    numbers.dp = row.dp, numbers.particles = row.particles, numbers.steps = row.steps,
+    numbers.wall_time = row.wall_time;
+    numbers.unit = "-", numbers.reference = numbers.error = numbers.bar = missing;
+    numbers.quantity = rows.front().quantity + ": observed order";
+    numbers.measured = convergence.order;
+    rows.push_back(numbers);
+    numbers.quantity = rows.front().quantity + (convergence.use_gci ? ": GCI" : ": spread (no GCI)");
+    numbers.measured = convergence.use_gci ? convergence.gci : convergence.spread;
+    rows.push_back(numbers);
   }
 
   std::string folder_;

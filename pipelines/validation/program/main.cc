@@ -10,6 +10,7 @@
 #include "evaluate.hh"
 #include "operators.hh"
 #include "report.hh"
+#include "study.hh"
 
 namespace {
 
@@ -33,6 +34,11 @@ int check(const Options& o) {
   return std::any_of(rows.begin(), rows.end(), [](const Row& r) { return r.judged() && !r.pass(); });
 }
 
+int study(const Options& o) {
+  write_text_file(o.output, study_table(o.case_folder, o.results), o.common.overwrite);
+  return 0;
+}
+
 int study_operators(const Options& o) {
   write_text_file(o.output, rows_csv(operator_rows()), o.common.overwrite);
   return 0;
@@ -40,7 +46,7 @@ int study_operators(const Options& o) {
 
 int merge(const Options& o) {
   write_text_file(o.output, joined_tables(tables_of(o.results)), o.common.overwrite);
-  if (o.output != "-" && !o.common.quiet) std::cout << summary_text(read_csv(o.output));
+  if (o.output != "-" && !o.common.quiet) std::cout << summary_text(CsvFile(o.output));
   return 0;
 }
 
@@ -50,7 +56,7 @@ int join(const Options& o) {
 }
 
 int tabulate(const Options& o) {
-  write_text_file(o.output, markdown(read_csv(o.table)), o.common.overwrite);
+  write_text_file(o.output, markdown(CsvFile(o.table)), o.common.overwrite);
   return 0;
 }
 
@@ -65,6 +71,9 @@ int main(int argc, char** argv) {
   check_command->add_option("CASE", o.case_folder, "folder with runs.txt and checks.yaml")->required();
   check_command->add_option("RESULTS", o.results, "folder of the runs' folders")->required();
   check_command->add_flag("--quick", o.quick, "the runs and bars of the tests; exit status 1 when a bar is missed");
+  CLI::App* study_command = app.add_subcommand("study", "one case: error against run time of its schemes, as CSV");
+  study_command->add_option("CASE", o.case_folder, "folder with study.txt and study.yaml")->required();
+  study_command->add_option("RESULTS", o.results, "folder of the runs' folders")->required();
   CLI::App* operators_command = app.add_subcommand("operators", "SPH operators on disordered particles, as CSV");
   CLI::App* merge_command = app.add_subcommand("merge", "all cases: one CSV, and on stdout what is met");
   merge_command->add_option("RESULTS", o.results, "folder of the cases' results")->required();
@@ -77,6 +86,7 @@ int main(int argc, char** argv) {
   app.footer("Example: lgiw-validation check pipelines/validation/tank pipelines/out/validation/tank");
   return tool_main(app, argc, argv, [&] {
     if (check_command->parsed()) return check(o);
+    if (study_command->parsed()) return study(o);
     if (operators_command->parsed()) return study_operators(o);
     if (join_command->parsed()) return join(o);
     if (merge_command->parsed()) return merge(o);

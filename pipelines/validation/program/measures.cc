@@ -33,7 +33,7 @@ double Keys::number(const std::string& key, double otherwise) const { return has
 
 double Keys::time(const std::string& key) const { return text(key, "last") == "last" ? last_time : number(key); }
 
-CsvFile Keys::csv(const std::string& key) const { return read_csv(folder_ + "/" + text(key)); }
+CsvFile Keys::csv(const std::string& key) const { return CsvFile(folder_ + "/" + text(key)); }
 
 const std::map<std::string, Measure>& measures() {
   static const std::map<std::string, Measure> all = [] {

@@ -109,7 +109,7 @@ Profile compared_profile(const Run& run, const Keys& keys) {
     p.measured.push_back(z);
     p.reference.push_back(zs[k] * scale + keys.number("z_offset", 0) - run.origin(2));
   }
-  LGIW_VALIDATE(!p.measured.empty(), keys.where() + ": no point of " + csv.path + " lies in the domain",
+  LGIW_VALIDATE(!p.measured.empty(), keys.where() + ": no point of " + csv.name + " lies in the domain",
                 "there is nothing to compare", "check scale and x_offset");
   return p;
 }

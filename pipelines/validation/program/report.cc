@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string cell(const CsvFile& rows, std::size_t k, const std::string& column) {
-  return rows.cells[k].at(rows.column(column));
+  return rows.rows[k].at(rows.index(column));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::vector<std::string> tables_of(const std::string& results_folder) {
 std::string summary_text(const CsvFile& rows) {
   std::string text;
   int judged = 0, met = 0;
-  for (std::size_t k = 0; k < rows.cells.size(); ++k) {
+  for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const std::string pass = cell(rows, k, "pass");
     if (pass.empty()) continue;
     ++judged, met += pass == "yes";
@@ -65,21 +65,24 @@ std::string summary_text(const CsvFile& rows) {
 std::string markdown(const CsvFile& rows) {
   // Rows of a quantity stand together, the finest last.
   std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
-  for (std::size_t k = 0; k < rows.cells.size(); ++k) {
+  for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const std::string name = cell(rows, k, "case") + "|" + cell(rows, k, "quantity");
     if (groups.empty() || groups.back().first != name) groups.push_back({name, {}});
     groups.back().second.push_back(k);
   }
-  std::string text =
-      "| case | quantity | unit | reference | measured | error | bar | met | dp (m) | wall time (s) | errors when "
-      "coarser |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  const std::vector<std::string> columns{"quantity", "unit", "reference", "measured",   "error",
+                                         "bar",      "pass", "dp",        "wall_time_s"};
+  std::string text = "Made by `make -C pipelines accuracy-table` from pipelines/out/validation.csv.\n", present;
   for (const auto& [name, lines] : groups) {
     const std::size_t k = lines.back();
+    if (cell(rows, k, "case") != present) {
+      present = cell(rows, k, "case");
+      text += "\n## " + present +
+              "\n\n| quantity | unit | reference | measured | error | bar | met | dp (m) | wall time (s) | errors when "
+              "coarser |\n|---|---|---|---|---|---|---|---|---|---|\n";
+    }
     text += "|";
-    for (const char* column :
-         {"case", "quantity", "unit", "reference", "measured", "error", "bar", "pass", "dp", "wall_time_s"})
-      text += " " + cell(rows, k, column) + " |";
+    for (const std::string& column : columns) text += " " + cell(rows, k, column) + " |";
     std::string coarser;
     for (std::size_t j = 0; j + 1 < lines.size(); ++j) coarser += (j ? ", " : "") + cell(rows, lines[j], "error");
     text += " " + coarser + " |\n";

@@ -14,7 +14,7 @@ std::string joined_tables(const std::vector<std::string>& files);
 std::vector<std::string> tables_of(const std::string& results_folder);
 /// What a person reads: a line for every quantity that has a bar, measured against it, and how many bars are met.
 std::string summary_text(const CsvFile& rows);
-/// The same as a Markdown table, with the errors of the coarser runs beside that of the finest.
+/// Markdown tables, one a case: the finest run of each quantity, and the errors of the coarser ones.
 std::string markdown(const CsvFile& rows);
 
 }  // namespace lgiw::validation

@@ -9,9 +9,9 @@
 namespace lgiw::validation {
 
 Series gauge_series(const Run& run, const std::string& gauge) {
-  const CsvFile csv = read_csv(run.folder + "/gauges.csv");
+  const CsvFile csv = CsvFile(run.folder + "/gauges.csv");
   Series s{csv.numbers("time_s", "gauge", gauge), csv.numbers("height_m", "gauge", gauge)};
-  LGIW_VALIDATE(!s.time.empty(), csv.path + " has no gauge " + gauge, "a check asks for it", "add it to the case");
+  LGIW_VALIDATE(!s.time.empty(), csv.name + " has no gauge " + gauge, "a check asks for it", "add it to the case");
   return s;
 }
 
@@ -24,7 +24,7 @@ Series between(const Series& s, double from, double to) {
 }
 
 Extreme extreme(const Series& s, bool highest) {
-  if (s.value.empty()) return {};
+  if (s.value.empty()) return {missing, missing};
   const auto at =
       highest ? std::max_element(s.value.begin(), s.value.end()) : std::min_element(s.value.begin(), s.value.end());
   const std::size_t k = std::size_t(at - s.value.begin());
@@ -138,7 +138,7 @@ Value diagnostic(const Run& run, const Keys& keys) {
 
 /// The same of a column of a table that a tool wrote into the run's folder: `table` slide.csv, with its time column.
 Value table(const Run& run, const Keys& keys) {
-  const CsvFile csv = read_csv(run.folder + "/" + keys.text("table"));
+  const CsvFile csv = CsvFile(run.folder + "/" + keys.text("table"));
   return {reduce(between({csv.numbers("time_s"), csv.numbers(keys.text("column"))}, keys.number("from", -last_time),
                          keys.number("to", last_time)),
                  keys)};

@@ -1,26 +1,20 @@
 // Series in time, of the run's gauges and of references.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "measure/norms.hh"
 #include "run.hh"
 
 namespace lgiw::validation {
-
-struct Series {
-  std::vector<double> time, value;  // s; rising
-};
 
 /// Height of a gauge above its reference level, m, from the run's gauges.csv.
 Series gauge_series(const Run& run, const std::string& gauge);
 /// The part of a series in a span of time, without what is not finite.
 Series between(const Series& s, double from, double to);
 
-struct Extreme {
-  double value = std::numeric_limits<double>::quiet_NaN(), time = value;
-};
+/// Highest or lowest value and its time, by the parabola through it and its neighbours; NaN of nothing.
 Extreme extreme(const Series& s, bool highest);
 
 }  // namespace lgiw::validation

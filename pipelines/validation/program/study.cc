@@ -48,7 +48,7 @@ std::string precision_name(Precision p) {
 /// that is at its lowest or highest at t = 0 as the gauge is; up to `to`.
 SeriesNorms series_norms(const Run& run, const Keys& keys) {
   const Series measured = gauge_series(run, keys.text("gauge"));
-  lgiw::Series computed{measured.time, measured.value}, reference;
+  Series reference;
   if (keys.has("file")) {
     const CsvFile csv = keys.csv("file");
     reference = {csv.numbers("1"), csv.numbers(keys.text("column"))};
@@ -60,7 +60,7 @@ SeriesNorms series_norms(const Run& run, const Keys& keys) {
     }
   }
   const double to = keys.number("to", measured.time.back());
-  return compare_series(part_of(computed, 0, to), part_of(reference, 0, to), run.dp() / 4);
+  return compare_series(part_of(measured, 0, to), part_of(reference, 0, to), run.dp() / 4);
 }
 
 }  // namespace
