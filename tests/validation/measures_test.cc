@@ -21,7 +21,7 @@ TEST(Series, ExtremesOfACoarselySampledWaveAreItsOwn) {
   EXPECT_NEAR(crest.value, 1, 1e-4);
   EXPECT_NEAR(trough.time, 3 * M_PI / 4, 1e-3);
   EXPECT_NEAR(trough.value, -1, 1e-4);
-  EXPECT_EQ(extreme(between(s, 1, 2), true).time, 1);  // at an end: no parabola
+  EXPECT_EQ(extreme(between(s, 0.95, 2), true).time, s.time[10]);  // at an end: no parabola
   EXPECT_TRUE(std::isnan(extreme({}, true).value));
 }
 

@@ -57,12 +57,13 @@ TEST_P(QuickBenchmark, MeetsItsBars) {
   EXPECT_EQ(judged.status, 0) << judged.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Validation, QuickBenchmark, testing::ValuesIn(quick_cases()), [](const auto& info) {
-  std::string name = info.param;
+std::string test_name(const testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Validation, QuickBenchmark, testing::ValuesIn(quick_cases()), test_name);
 
 }  // namespace
 }  // namespace lgiw::test

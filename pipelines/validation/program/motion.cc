@@ -11,8 +11,8 @@ namespace lgiw::validation {
 namespace {
 
 /// Acceleration of the centre of the soil along a direction `dip` degrees below east, m/s2: least squares of
-/// s = v0 t + a t^2 / 2 over the frames from `from` to `to`. Reference: g (sin dip - tan(friction) cos dip) with
-/// `friction` in degrees, where given.
+/// s = v0 t + a t^2 / 2 over the frames from `from` to `to`. Reference: g (sin - tan(friction) cos) with `friction` in
+/// degrees, where given, on a plane that gravity meets at `steep` (dip) degrees.
 Value acceleration(const Run& run, const Keys& keys) {
   const double dip = keys.number("dip") * std::numbers::pi / 180;
   const std::size_t first = run.frame_index(keys.number("from", 0)), last = run.frame_index(keys.time("to"));
@@ -30,12 +30,15 @@ Value acceleration(const Run& run, const Keys& keys) {
   }
   // Normal equations of s = v t + b t^2.
   const double b = (st2 * t2 - st * t3) / (t4 * t2 - t3 * t3);
-  const double g = -run.c.gravity[2];
-  const double expected =
-      keys.has("friction")
-          ? g * (std::sin(dip) - std::tan(keys.number("friction") * std::numbers::pi / 180) * std::cos(dip))
-          : missing;
-  return {2 * b, expected};
+  Value value{2 * b, missing};
+  if (keys.has("friction")) {
+    const auto& gravity = run.c.gravity;
+    const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+    const double steep = keys.number("steep", keys.number("dip")) * std::numbers::pi / 180;
+    value.reference =
+        g * (std::sin(steep) - std::tan(keys.number("friction") * std::numbers::pi / 180) * std::cos(steep));
+  }
+  return value;
 }
 
 /// Times at which a series crosses its mean upwards.
