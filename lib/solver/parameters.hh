@@ -43,9 +43,9 @@ struct Parameters {
   ArtificialViscosity<T, D> soil_viscosity;
   T soil_density, soil_mass, stress_diffusion;  // 2 delta h c_s, 0: left out
   Stress<T, D> static_stress_dry,
-      static_stress_wet;  // -d(stress)/d(g.x): rho_s kappa, above and below still water level
-  T pore_gradient, still_water_level;
-  T artificial_stress, inverse_w_dp;  // epsilon / rho_s^2, 1 / W(dp)
+      static_stress_wet;                           // -d(stress)/d(g.x): rho_s kappa, above and below still water level
+  T pore_gradient, pore_share, still_water_level;  // share of the pore water in the growth of stress with depth
+  T artificial_stress, inverse_w_dp;               // epsilon / rho_s^2, 1 / W(dp)
   bool return_mapping, wall_viscosity, coulomb_walls, corrected_strain_rate;
   // Interface.
   InterfacePair<T, D> interface;
@@ -100,6 +100,7 @@ struct Parameters {
     static_stress_dry = static_stress(p.soil_density, p.k0, g, g2);
     static_stress_wet = static_stress(p.soil_density, across_wet, g, g2);
     pore_gradient = T(p.pore_gradient);
+    pore_share = T(p.pore_gradient > 0 && p.soil_density > 0 ? p.pore_gradient / (p.soil_density * std::sqrt(g2)) : 0);
     still_water_level = T(water ? p.still_water_level : 0);
     artificial_stress = T(with_soil ? p.artificial_stress / (p.soil_density * p.soil_density) : 0);
     inverse_w_dp = 1 / kernel.value(dp);

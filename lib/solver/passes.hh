@@ -559,24 +559,46 @@ struct WallImages : WaterImage<Tr> {
     if (this->soil.n) B::store_stress(b.stress, i, soil_stress(i, cell, x));
   }
 
+  /// Stress of the soil near x, continued to x. On rough walls the effective stress is continued along the normal as
+  /// that of a layer grows with depth that rests, slides or flows: all components alike, shear with pressure. The
+  /// static increase alone has no shear, and thin layers feel too little friction. Without enough pressure to continue,
+  /// the static increase takes over.
   LGIW_FN Stress<T, D> soil_stress(int i, int cell, const V& x) const {
     const auto& p = this->parameters;
     const auto& s = this->soil;
     Stress<T, D> sum;
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
-    T weight = 0, moment = 0;
+    T weight = 0;
+    V offset{};
     this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
       const T kernel = p.kernel.value(square_root(r2));
       weight += kernel;
-      moment += kernel * dot(p.gravity, r);
+      add_scaled(offset, kernel, r);
       for (int c = 0; c < S; ++c) sum.c[c] += kernel * s.stress[c][j];
     });
     if (!(weight > 0)) return sum;
-    const Stress<T, D>& at_rest = this->pore_pressure(x.c[D - 1]) > 0 ? p.static_stress_wet : p.static_stress_dry;
-    for (int c = 0; c < S; ++c) sum.c[c] = (sum.c[c] - moment * at_rest.c[c]) / weight;
     const auto& b = B::template walls<of_bodies>();
-    return b.slip[i] > 0 ? reflect(sum, B::load(b.normal, i)) : sum;
+    const V n = B::load(b.normal, i);
+    for (int c = 0; c < S; ++c) sum.c[c] /= weight;
+    offset = (1 / weight) * offset;
+    T moment = dot(p.gravity, offset);
+    if (b.slip[i] == 0) {
+      const T pore = this->pore_pressure(x.c[D - 1] - offset.c[D - 1]), share = pore > 0 ? p.pore_share : T(0);
+      const T along = dot(p.gravity, n) * dot(offset, n), growth = p.soil_density * along * (1 - share);
+      const T pressure = -dot(n, apply(sum, n)) - pore;
+      if (growth > 0 && pressure > 0) {
+        const T continued = smallest(T(1), pressure / (T(least_pressure) * growth));
+        const T factor = 1 + continued * growth / pressure;
+        for (int c = 0; c < S; ++c) sum.c[c] *= factor;
+        add_isotropic(sum, (factor - 1) * pore - continued * share * p.soil_density * along);
+        moment -= continued * along;
+      }
+    }
+    const Stress<T, D>& at_rest = this->pore_pressure(x.c[D - 1]) > 0 ? p.static_stress_wet : p.static_stress_dry;
+    for (int c = 0; c < S; ++c) sum.c[c] -= moment * at_rest.c[c];
+    return b.slip[i] > 0 ? reflect(sum, n) : sum;
   }
+  static constexpr double least_pressure = 0.2;  // of its increase, from which it is continued
 };
 
 /// Water pressure at a soil particle, Eq. (12) with the hydrostatic term that it lacks.

@@ -10,6 +10,7 @@ namespace lgiw::test {
 struct CloudOptions {
   int dimension = 2;
   bool walls = true, cubic = false, paper = false, gravity = true, pore = true, bodies = false;
+  bool coulomb = false, corrected = false;
 };
 
 struct Cloud {
@@ -51,7 +52,8 @@ inline Cloud cloud(const CloudOptions& o) {
   p.velocity_factor = o.paper ? 2 : 1, p.image_gravity = !o.paper;
   p.still_water_level = 0.9;
   p.low = {-1, -1, -1}, p.high = {3, 3, 3};
-  p.free_slip_sides = true;
+  p.free_slip_sides = true, p.coulomb_bed = o.coulomb, p.corrected_strain_rate = o.corrected;
+  p.bed_friction = 0.3;
   if (o.bodies) p.bodies = {motion_of_the_body(o.dimension)};
 
   std::mt19937 random(7);

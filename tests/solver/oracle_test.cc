@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "cloud.hh"
+#include "physics/gradient_correction.hh"
 #include "physics/interface.hh"
 #include "physics/kernel.hh"
 #include "physics/soil.hh"
@@ -131,20 +132,37 @@ class Oracle {
     return s;
   }
   S wall_stress(std::size_t b) const {
-    S sum{};
-    double bottom = 0, moment = 0;
+    S mean{};
+    V offset{};
+    double bottom = 0;
     for (std::size_t j = 0; j < xs.size(); ++j) {
       const V r = xb[b] - xs[j];
       const double weight = w(std::sqrt(dot(r, r)));
-      for (int c = 0; c < S::size; ++c) sum.c[c] += weight * sigma[j].c[c];
-      moment += weight * dot(g, r), bottom += weight;
+      for (int c = 0; c < S::size; ++c) mean.c[c] += weight * sigma[j].c[c];
+      add_scaled(offset, weight, r), bottom += weight;
     }
-    if (bottom == 0) return sum;
+    if (bottom == 0) return mean;
+    for (int c = 0; c < S::size; ++c) mean.c[c] /= bottom;
+    offset = (1 / bottom) * offset;
     const S rest = at_rest(xb[b][D - 1]);
-    for (int c = 0; c < S::size; ++c) sum.c[c] = (sum.c[c] - moment * rest.c[c]) / bottom;
+    const double along = dot(g, nb[b]) * dot(offset, nb[b]), across = dot(g, offset) - along;
+    const double pore = std::max(0.0, p.pore_gradient * (p.still_water_level - (xb[b][D - 1] - offset[D - 1])));
+    const double pore_growth = pore > 0 ? p.pore_gradient / size(g) * along : 0;
+    const double growth = p.soil_density * along - pore_growth, pressure = -dot(nb[b], apply(mean, nb[b])) - pore;
+    double share = 0;  // of the growth, in the manner of a layer
+    if (!slips(b) && growth > 0 && pressure > 0) share = std::min(1.0, 5 * pressure / growth);
+    S sum{};
+    for (int c = 0; c < S::size; ++c) {
+      const double normal = D == 2 ? (c == 2 ? 0 : 1) : (c < 3 ? 1 : 0);
+      const double effective = mean.c[c] + normal * pore;
+      sum.c[c] = mean.c[c] + share * (pressure > 0 ? growth / pressure * effective : 0) - share * pore_growth * normal -
+                 ((1 - share) * along + across) * rest.c[c];
+    }
     return slips(b) ? reflect(sum, nb[b]) : sum;
   }
-  bool slips(std::size_t b) const { return kind_b[b] == 0 ? p.free_slip_bed : p.free_slip_sides; }
+  static double size(const V& v) { return std::sqrt(dot(v, v)); }
+  bool rubs(std::size_t b) const { return kind_b[b] == 0 ? p.coulomb_bed : p.coulomb_sides; }
+  bool slips(std::size_t b) const { return rubs(b) || (kind_b[b] == 0 ? p.free_slip_bed : p.free_slip_sides); }
   V wall_velocity(std::size_t b) const {
     V sum{};
     double bottom = 0;
@@ -222,7 +240,7 @@ class Oracle {
     }
     for (std::size_t b = 0; b < xb.size(); ++b) {
       const V r = xs[i] - xb[b];
-      if (dot(r, r) >= 4 * p.h * p.h) continue;
+      if (dot(r, r) >= 4 * p.h * p.h || rubs(b)) continue;
       const S image = wall_stress(b);
       S sum;
       for (int c = 0; c < S::size; ++c) sum.c[c] = (sigma[i].c[c] + image.c[c]) / rho2;
@@ -236,7 +254,31 @@ class Oracle {
       const V r = xw[j] - xs[i];
       if (dot(r, r) < 4 * p.h * p.h) add_scaled(a, -mw / ms * interface(j, i), r);
     }
+    add_scaled(a, 1.0, contact(i, a));
     return ms * a;
+  }
+  /// Acceleration by Coulomb walls in the first instant, when the others give a and gravity.
+  V contact(std::size_t i, V a) const {
+    V pressure{}, normal{};
+    double weight = 0;
+    for (std::size_t b = 0; b < xb.size(); ++b) {
+      const V r = xs[i] - xb[b], n = nb[b];
+      if (dot(r, r) >= 4 * p.h * p.h || !rubs(b)) continue;
+      const S image = wall_stress(b);
+      const double toward = -p.soil_density * volume_b[b] * f(size(r)) * dot(r, n);
+      double push = -(dot(n, apply(sigma[i], n)) + dot(n, apply(image, n))) / (p.soil_density * p.soil_density);
+      if (p.wall_viscosity) push += viscosity(r, dot(vs[i] - vb[b], n) * n, p.soil_alpha * soil_c(), p.soil_density);
+      add_scaled(pressure, toward * push, n), add_scaled(normal, toward, n), weight += toward;
+    }
+    V none{};
+    if (weight <= 0) return none;
+    normal = (1 / size(normal)) * normal;
+    const double force = dot(pressure, normal);
+    if (force <= 0) return none;
+    for (int k = 0; k < D; ++k) a[k] += g[k] + pressure[k];
+    add_scaled(a, -dot(a, normal), normal);
+    add_scaled(pressure, -std::min(1.0, p.bed_friction * force / size(a)), a);
+    return pressure;
   }
   double density_rate(std::size_t i) const {
     double rate = 0;
@@ -261,7 +303,9 @@ class Oracle {
   S new_stress(std::size_t i, double dt, double* adps) const {
     double l[D * D] = {};
     S smoothing{};
+    MomentMatrix<double, D> moment;
     auto add = [&](const V& r, const V& v_ji, double weight) {
+      moment.add(weight * f(std::sqrt(dot(r, r))), r);
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) l[a * D + b] += weight * v_ji[a] * r[b] * f(std::sqrt(dot(r, r)));
     };
@@ -276,6 +320,7 @@ class Oracle {
     }
     for (std::size_t b = 0; b < xb.size(); ++b)
       if (dot(xs[i] - xb[b], xs[i] - xb[b]) < 4 * p.h * p.h) add(xs[i] - xb[b], wall_velocity(b) - vs[i], volume_b[b]);
+    if (p.corrected_strain_rate) correct_gradient(l, moment);
     const SoilMaterial<double> m(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy,
                                  Cone::plane_strain);
     S d = elastic_increment(m, sigma[i], l, dt), s = sigma[i];
@@ -321,6 +366,8 @@ TEST(Oracle, Forces2D) { compare_forces<2>({}); }
 TEST(Oracle, Forces3D) { compare_forces<3>({3}); }
 TEST(Oracle, ForcesBesideAMovingBody2D) { compare_forces<2>({2, true, false, false, true, true, true}); }
 TEST(Oracle, ForcesBesideAMovingBody3D) { compare_forces<3>({3, true, false, false, true, true, true}); }
+TEST(Oracle, ForcesAtCoulombWalls2D) { compare_forces<2>({.coulomb = true}); }
+TEST(Oracle, ForcesAtCoulombWalls3D) { compare_forces<3>({.dimension = 3, .coulomb = true}); }
 TEST(Oracle, ForcesOfThePaper2D) { compare_forces<2>({2, true, true, true}); }
 TEST(Oracle, ForcesOfThePaper3D) { compare_forces<3>({3, true, true, true}); }
 
@@ -369,6 +416,8 @@ void compare_step(Options o) {
 }
 TEST(Oracle, Step2D) { compare_step<2>({}); }
 TEST(Oracle, Step3D) { compare_step<3>({3}); }
+TEST(Oracle, StepWithCorrectedStrainRate2D) { compare_step<2>({.corrected = true}); }
+TEST(Oracle, StepWithCorrectedStrainRate3D) { compare_step<3>({.dimension = 3, .corrected = true}); }
 TEST(Oracle, StepBesideAMovingBody2D) { compare_step<2>({2, true, false, false, true, true, true}); }
 TEST(Oracle, StepBesideAMovingBody3D) { compare_step<3>({3, true, false, false, true, true, true}); }
 
