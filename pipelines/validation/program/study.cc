@@ -31,7 +31,7 @@ const std::vector<std::string> columns{"case",
                                        "physical_time_s",
                                        "wall_time_s",
                                        "particle_steps_per_s",
-                                       "memory_bytes",
+                                       "peak_memory_bytes",
                                        "norm",
                                        "error",
                                        "lag_s",
@@ -96,15 +96,15 @@ std::string study_table(const std::string& case_folder, const std::string& resul
     Convergence convergence;
     convergence.order = convergence.gci = missing;
     if (finest) convergence = convergence_of(results[run.series()]);
-    const std::string model = run.summary.value("model", std::string());
     table.add(name, run.series(), double(run.particles()), run.dp(), n.h_over_dp,
               std::string(n.kernel == KernelName::cubic ? "cubic" : "wendland"),
               std::string(n.integrator == Integrator::verlet ? "verlet" : "leapfrog"), n.cfl,
-              precision_name(n.precision), model.substr(0, model.find(',')), run.summary.value("threads", 0.0),
-              double(run.steps()), run.summary.value("end_time_s", 0.0), run.wall_time(),
-              run.summary.value("particle_steps_per_s", 0.0), run.summary.value("bytes", 0.0),
-              study["norm"]["quantity"].as<std::string>(), errors[k].error, norms.phase_lag, norms.nrmse,
-              norms.willmott_d, convergence.order, convergence.use_gci ? convergence.gci : missing);
+              precision_name(n.precision), run.summary.value("device", std::string("CPU")),
+              run.summary.value("threads", 0.0), double(run.steps()), run.summary.value("end_time_s", 0.0),
+              run.wall_time(), run.summary.value("particle_steps_per_s", 0.0),
+              run.summary.value("peak_memory_bytes", missing), study["norm"]["quantity"].as<std::string>(),
+              errors[k].error, norms.phase_lag, norms.nrmse, norms.willmott_d, convergence.order,
+              convergence.use_gci ? convergence.gci : missing);
   }
   return table.text();
 }
