@@ -9,6 +9,7 @@ set multiplot layout panel_rows, columns
 set logscale xy
 set format y "%g"; set format x "%g"
 set xlabel "wall time (s)"
+set autoscale xfix
 set key outside right top font ",10" spacing 1.0
 do for [i = 1:n] {
   name = word(cases, i)

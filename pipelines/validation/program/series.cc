@@ -1,6 +1,7 @@
 // Measures of series in time: gauges, the diagnostics of the run, tables of the tools.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.hh"
 #include "measures.hh"
@@ -36,6 +37,23 @@ Extreme extreme(const Series& s, bool highest) {
   if (curvature == 0) return {s.value[k], s.time[k]};
   const double t = -slope / (2 * curvature);
   return {s.value[k] + slope * t / 2, s.time[k] + t};
+}
+
+SeriesNorms reference_norms(const Run& run, const Keys& keys) {
+  const Series measured = gauge_series(run, keys.text("gauge"));
+  Series reference;
+  if (keys.has("file")) {
+    const CsvFile csv = keys.csv("file");
+    reference = {csv.numbers("1"), csv.numbers(keys.text("column"))};
+  } else {
+    const double amplitude = std::copysign(keys.number("amplitude"), measured.value.front());
+    for (double t : measured.time) {
+      reference.time.push_back(t);
+      reference.value.push_back(amplitude * std::cos(2 * std::numbers::pi * t / keys.number("period")));
+    }
+  }
+  const double to = keys.number("to", measured.time.back());
+  return compare_series(part_of(measured, 0, to), part_of(reference, 0, to), run.dp() / 4);
 }
 
 namespace {
@@ -86,6 +104,9 @@ Value gauge_nrmse(const Run& run, const Keys& keys) {
   }
   return {std::sqrt(sum / n) / (extreme(p.reference, true).value - extreme(p.reference, false).value), 0};
 }
+
+/// NRMSE of a gauge against linear theory: reference_norms() below.
+Value wave_nrmse(const Run& run, const Keys& keys) { return {reference_norms(run, keys).nrmse, 0}; }
 
 /// Speed of the highest crest between the gauges `gauge` and `second`, m/s; reference: sqrt(g (d + a)) with the depth
 /// `depth` and the mean of the two crests.
@@ -167,6 +188,7 @@ void add_series(std::map<std::string, Measure>& all) {
   all["trough_time"] = trough_time;
   all["gauge_nrmse"] = gauge_nrmse;
   all["wave_height"] = wave_height;
+  all["wave_nrmse"] = wave_nrmse;
   all["celerity"] = celerity;
   all["diagnostic"] = diagnostic;
   all["table"] = table;

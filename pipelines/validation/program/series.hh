@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measure/norms.hh"
+#include "measures.hh"
 #include "run.hh"
 
 namespace lgiw::validation {
@@ -16,5 +17,9 @@ Series between(const Series& s, double from, double to);
 
 /// Highest or lowest value and its time, by the parabola through it and its neighbours; NaN of nothing.
 Extreme extreme(const Series& s, bool highest);
+
+/// Norms of the gauge `gauge` against the columns 1 and `column` of `file`, or a cosine of `amplitude` and `period`
+/// that is at t = 0 at its lowest or highest as the gauge is; up to the time `to`.
+SeriesNorms reference_norms(const Run& run, const Keys& keys);
 
 }  // namespace lgiw::validation

@@ -1,9 +1,7 @@
 #include "study.hh"
 
-#include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include "base/error.hh"
 #include "evaluate.hh"
@@ -44,25 +42,6 @@ std::string precision_name(Precision p) {
   return p == Precision::single_ ? "single" : p == Precision::double_ ? "double" : "mixed";
 }
 
-/// Lag, NRMSE and Willmott's d of the gauge `gauge` against `file`, `column`, or a cosine of `amplitude` and `period`
-/// that is at its lowest or highest at t = 0 as the gauge is; up to `to`.
-SeriesNorms series_norms(const Run& run, const Keys& keys) {
-  const Series measured = gauge_series(run, keys.text("gauge"));
-  Series reference;
-  if (keys.has("file")) {
-    const CsvFile csv = keys.csv("file");
-    reference = {csv.numbers("1"), csv.numbers(keys.text("column"))};
-  } else {
-    const double amplitude = std::copysign(keys.number("amplitude"), measured.value.front());
-    for (double t : measured.time) {
-      reference.time.push_back(t);
-      reference.value.push_back(amplitude * std::cos(2 * std::numbers::pi * t / keys.number("period")));
-    }
-  }
-  const double to = keys.number("to", measured.time.back());
-  return compare_series(part_of(measured, 0, to), part_of(reference, 0, to), run.dp() / 4);
-}
-
 }  // namespace
 
 std::string study_table(const std::string& case_folder, const std::string& results_folder) {
@@ -90,7 +69,7 @@ std::string study_table(const std::string& case_folder, const std::string& resul
     const Numerics& n = run.c.numerics;
     SeriesNorms norms;
     norms.phase_lag = norms.nrmse = norms.willmott_d = missing;
-    if (study["series"]) norms = series_norms(run, Keys(study["series"], case_folder, path + ": series"));
+    if (study["series"]) norms = reference_norms(run, Keys(study["series"], case_folder, path + ": series"));
     bool finest = true;
     for (const SpacingResult& r : results[run.series()]) finest = finest && r.spacing >= run.dp();
     Convergence convergence;
