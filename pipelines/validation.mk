@@ -3,7 +3,7 @@
 #   make -C pipelines validate         all benchmarks; then one line a quantity, measured against its bar
 #   make -C pipelines validate-tank    one of them (a folder in validation/); the table keeps the rows of the others
 #   make -C pipelines validate-clean   removes all their results; validate-clean-tank those of one
-#   make -C pipelines accuracy-table   writes what was found to docs/accuracy-table.md
+#   make -C pipelines accuracy-docs    writes what was found into docs/: accuracy-table.md, error-vs-time.png
 #   make -C pipelines error-vs-time    the study of schemes: error against run time, as table and figure
 #
 # LEVELS says which of the runs in validation/*/runs.txt are made: full (the default), quick (seconds; what the tests do),
@@ -34,7 +34,7 @@ $(foreach case,$(validation_cases),$(eval case_tables_$(case) := $(call find_tab
 # Of all runs of case $(1) in the list $(2), below the folder $(3).
 case_results = $(foreach run,$(filter $(1)/%,$(2)),$(addprefix $(3)/$(run)/,$(case_tables_$(1))))
 
-.PHONY: validate validate-operators accuracy-table validate-runs validate-clean error-vs-time error-vs-time-clean FORCE
+.PHONY: validate validate-operators accuracy-docs validate-runs validate-clean error-vs-time error-vs-time-clean FORCE
 .PHONY: $(addprefix validate-,$(validation_cases)) $(addprefix validate-clean-,$(validation_cases))
 validate: $(addprefix $(validation_out)/,$(addsuffix /rows.csv,operators $(validation_cases)))
 validate-operators: $(validation_out)/operators/rows.csv
@@ -42,9 +42,10 @@ $(foreach case,$(validation_cases),$(eval validate-$(case): $(validation_out)/$(
 validate $(addprefix validate-,operators $(validation_cases)): | $(lgiw_validation)
 	@$(lgiw_validation) merge $(validation_out) -o $(here)/out/validation.csv -O
 
-# docs/accuracy-table.md from what has been judged.
-accuracy-table: | $(lgiw_validation)
+# The table and figure of docs/accuracy.md from what has been run.
+accuracy-docs: | $(lgiw_validation)
 	$(lgiw_validation) table $(here)/out/validation.csv -o $(root)/docs/accuracy-table.md -O
+	cp $(here)/out/error-vs-time.png $(root)/docs/
 
 # The runs alone, without judging them.
 validate-runs: $(foreach case,$(validation_cases),$(call case_results,$(case),$(validation_runs),$(validation_out)))

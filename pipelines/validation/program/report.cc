@@ -72,7 +72,7 @@ std::string markdown(const CsvFile& rows) {
   }
   const std::vector<std::string> columns{"quantity", "unit", "reference", "measured",   "error",
                                          "bar",      "pass", "dp",        "wall_time_s"};
-  std::string text = "Made by `make -C pipelines accuracy-table` from pipelines/out/validation.csv.\n", present;
+  std::string text = "Made by `make -C pipelines accuracy-docs` from pipelines/out/validation.csv.\n", present;
   for (const auto& [name, lines] : groups) {
     const std::size_t k = lines.back();
     if (cell(rows, k, "case") != present) {
