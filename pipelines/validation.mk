@@ -99,7 +99,7 @@ $(validation_out)/operators/rows.csv: | $(lgiw_validation)
 
 $(validation_out)/%/rows.csv: $(validation)/%/checks.yaml $(validation)/%/runs.txt \
     $$(call case_results,$$*,$(validation_runs),$(validation_out)) | $(lgiw_validation)
-	$(lgiw_validation) check $(validation)/$* $(validation_out)/$* -o $@ -O
+	$(lgiw_validation) check $(if $(filter full fine,$(LEVELS)),,--quick) $(validation)/$* $(validation_out)/$* -o $@ -O
 
 $(study_out)/%/rows.csv: $(validation)/%/study.yaml $(validation)/%/study.txt \
     $$(call case_results,$$*,$(study_runs),$(study_out)) | $(lgiw_validation)

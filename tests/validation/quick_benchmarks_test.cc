@@ -52,7 +52,7 @@ TEST_P(QuickBenchmark, MeetsItsBars) {
   const YAML::Node scene = YAML::LoadFile(folder / "case.yaml");
   if (scene["gauges"]) tool("gauges " + name + "/run.h5 -q --long -o " + name + "/gauges.csv");
   if (scene["slide"]) tool("deposit-volume " + name + "/run.h5 -q -o " + name + "/slide.csv");
-  const Outcome judged = shop.run("lgiw-validation check --quick '" + folder.string() + "' .");
+  const Outcome judged = shop.run("lgiw-validation check --quick --strict '" + folder.string() + "' .");
   std::printf("%s", judged.out.c_str());
   EXPECT_EQ(judged.status, 0) << judged.err;
 }
