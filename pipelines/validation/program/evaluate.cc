@@ -174,7 +174,7 @@ class Checks {
     numbers.unit = "-", numbers.reference = numbers.error = numbers.bar = missing;
     numbers.quantity = rows.front().quantity + ": observed order";
     numbers.measured = convergence.order;
-    rows.push_back(numbers);
+    if (std::isfinite(convergence.order)) rows.push_back(numbers);
     numbers.quantity = rows.front().quantity + (convergence.use_gci ? ": GCI" : ": spread (no GCI)");
     numbers.measured = convergence.use_gci ? convergence.gci : convergence.spread;
     rows.push_back(numbers);
