@@ -108,14 +108,31 @@ Value gauge_nrmse(const Run& run, const Keys& keys) {
 /// NRMSE of a gauge against linear theory: reference_norms() below.
 Value wave_nrmse(const Run& run, const Keys& keys) { return {reference_norms(run, keys).nrmse, 0}; }
 
+/// Middle of the span in which the highest crest is above half of its height: steadier than the time of a flat top.
+double middle_of_crest(const Series& s) {
+  const Extreme top = extreme(s, true);
+  std::size_t first = 0;
+  while (first + 1 < s.time.size() && s.time[first + 1] <= top.time) ++first;
+  std::size_t last = first;
+  const auto above = [&](std::size_t k) { return s.value[k] > top.value / 2; };
+  while (first > 0 && above(first - 1)) --first;
+  while (last + 1 < s.time.size() && above(last + 1)) ++last;
+  if (first == 0 || last + 1 == s.time.size()) return top.time;
+  const auto crossing = [&](std::size_t inside, std::size_t outside) {
+    const double share = (s.value[inside] - top.value / 2) / (s.value[inside] - s.value[outside]);
+    return s.time[inside] + share * (s.time[outside] - s.time[inside]);
+  };
+  return (crossing(first, first - 1) + crossing(last, last + 1)) / 2;
+}
+
 /// Speed of the highest crest between the gauges `gauge` and `second`, m/s; reference: sqrt(g (d + a)) with the depth
 /// `depth` and the mean of the two crests.
 Value celerity(const Run& run, const Keys& keys) {
   const std::string names[2] = {keys.text("gauge"), keys.text("second")};
   double x[2] = {missing, missing}, a = 0, t[2];
   for (int k = 0; k < 2; ++k) {
-    const Extreme e = extreme(gauge_series(run, names[k]), true);
-    t[k] = e.time, a += e.value / 2;
+    const Series s = between(gauge_series(run, names[k]), 0, last_time);
+    t[k] = middle_of_crest(s), a += extreme(s, true).value / 2;
     for (const Gauge& g : run.c.gauges)
       if (g.name == names[k]) x[k] = g.x;
   }
