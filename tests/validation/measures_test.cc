@@ -96,6 +96,27 @@ TEST(Checks, BarsBandsAndLimits) {
   EXPECT_EQ(verdict("reference: 0.2"), "0 ");
 }
 
+TEST(Checks, ThoseOfTheBenchmarksNameMeasuresAndQuantities) {
+  int cases = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(LGIW_SOURCE_DIR) / "pipelines/validation")) {
+    if (!fs::exists(entry.path() / "runs.txt")) continue;
+    ++cases;
+    const YAML::Node checks = YAML::LoadFile(entry.path() / "checks.yaml");
+    EXPECT_GT(checks.size(), 0u) << entry.path();
+    for (const YAML::Node& check : checks) {
+      ASSERT_TRUE(check["quantity"] && check["measure"]) << entry.path() << "\n" << check;
+      EXPECT_EQ(measures().count(check["measure"].as<std::string>()), 1u) << entry.path() << "\n" << check;
+      if (check["file"] && check["file"].as<std::string>().find('{') == std::string::npos) {
+        EXPECT_TRUE(fs::exists(entry.path() / check["file"].as<std::string>())) << entry.path() << "\n" << check;
+      }
+    }
+    if (fs::exists(entry.path() / "study.txt")) {
+      EXPECT_TRUE(YAML::LoadFile(entry.path() / "study.yaml")["norm"]);
+    }
+  }
+  EXPECT_GE(cases, 18);
+}
+
 TEST(Checks, WhatIsNoCheckEndsInOneLine) {
   SmallRun run;
   for (const std::string& bad : {std::string("- {quantity: q}\n"), std::string("- {quantity: q, measure: weight}\n"),

@@ -59,7 +59,7 @@ SeriesNorms reference_norms(const Run& run, const Keys& keys) {
 namespace {
 
 /// The series of the run's gauge `gauge` and that of column `column` of `file` (multiplied by `scale`, time by
-/// `time_scale`), if the check names one; both between `from` and `to`.
+/// `time_scale`), if the check names one; both between `from` and `to`, and after their lowest with `after: trough`.
 struct Pair {
   Series measured, reference;
 };
@@ -73,6 +73,8 @@ Pair gauge_pair(const Run& run, const Keys& keys) {
     for (double& v : s.value) v *= keys.number("scale", 1);
     p.reference = between(s, from, to);
   }
+  if (keys.text("after", "") == "trough")
+    for (Series* s : {&p.measured, &p.reference}) *s = between(*s, extreme(*s, false).time, to);
   return p;
 }
 
