@@ -105,6 +105,7 @@ void read_water(const YamlSection& s, Water& w) {
             .mistakes = {{0.9, 1.3, "t/m3", 1000}, {9, 13, "kN/m3", 1000 / 9.81}}});
   s.number("sound_speed", w.sound_speed, {.unit = "m/s", .low = 0, .high = 2000, .above_low = true, .automatic = true});
   s.number("viscosity_alpha", w.viscosity_alpha, between(0, 1));
+  s.choice<bool>("walls", w.no_slip, {{"free_slip", false}, {"no_slip", true}});
   s.number("density_diffusion", w.density_diffusion, between(0, 1));
   s.point_lists("bodies", w.bodies, "[x, z]");
   std::for_each(w.bodies.begin(), w.bodies.end(), open_outline);
@@ -241,6 +242,7 @@ void apply_scheme_defaults(Case& c) {
   c.numerics.return_mapping = false;
   c.numerics.wall_viscosity = false;
   c.water.viscosity_alpha = 0.05;
+  c.water.no_slip = true;
   c.water.density_diffusion = 0;
   c.soil.viscosity_alpha = 0.1;
   c.soil.stress_diffusion = 0;

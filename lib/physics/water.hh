@@ -84,4 +84,12 @@ struct ArtificialViscosity {
   LGIW_FN T operator()(T mu_ij, T rho_mean) const { return smallest(mu_ij, T(0)) * -alpha_c / rho_mean; }
 };
 
+/// v.r of a particle beside a wall particle, for the artificial viscosity: r from the wall particle, n the wall's
+/// normal. A wall that slips resists only the motion along n: the artificial viscosity, alpha c h / 8, is thousands of
+/// times that of water, and a no-slip wall with it drags down waves in depths of ten to twenty particles.
+template <class T, int D>
+LGIW_FN T approach_to_wall(const Vec<T, D>& v, const Vec<T, D>& r, const Vec<T, D>& n, T slip) {
+  return (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
+}
+
 }  // namespace lgiw

@@ -104,7 +104,7 @@ ErrorBudget error_budget(const ModelParameters& p, const ParticleHeader& header,
                              : 0.0;
   b.momentum_residual = value_of(extremes, "max_momentum_residual");
   b.energy_released = value_of(extremes, "energy_released"), b.energy_rise = value_of(extremes, "energy_created");
-  b.energy_floor = mass * std::hypot(p.gravity[0], p.gravity[1], p.gravity[2]) * p.dp / 100;
+  b.energy_floor = mass * std::hypot(p.gravity[0], p.gravity[1], p.gravity[2]) * p.dp;
   const double scale = std::max(b.energy_released, b.energy_floor);
   if (header.bodies.empty() && scale > 0) b.energy_created = b.energy_rise / scale;
   b.density_error = optional_of(extremes, "max_density_error");

@@ -49,7 +49,7 @@ struct ErrorBudget {
   double momentum_residual = 0;          // largest |net force of the particles on each other| / sum of its magnitudes
   double energy_released = 0;            // J
   double energy_rise = 0;                // J: largest rise of the total energy above its running minimum
-  double energy_floor = 0;               // J: the weight times dp/100; less is the lattice settling
+  double energy_floor = 0;               // J: the weight times dp; scenes at rest release next to nothing
   std::optional<double> energy_created;  // rise / max(released, floor); absent with bodies that do work
   std::optional<double> density_error, density_error_p999, mach_number;
   std::optional<double> interpenetrating, interpenetrating_share;  // largest number; over the smaller phase's particles

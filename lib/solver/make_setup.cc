@@ -110,7 +110,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
   p.water_density = c.water.density;
   if (water) {
     p.sound_speed = sound_speed(c, header);
-    p.water_alpha = c.water.viscosity_alpha;
+    p.water_alpha = c.water.viscosity_alpha, p.water_slips = !c.water.no_slip;
     p.density_diffusion = c.water.density_diffusion;
     p.shifting = c.numerics.shifting;
     p.still_water_level = header.still_water_level;

@@ -482,6 +482,10 @@ class ParticleSimulation final : public Simulation {
     for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[id[i]] / double(p_.volume));
     put(walls.weight, value), put(walls.id, id);
     if (n_water_) walls.term = zeros<T>(n), walls.excess = zeros<T>(n);
+    for (int k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
+      put(walls.normal[k], value);
+    }
     if (n_soil_) {
       const auto at_side = [&](std::size_t i) { return in.wall_kind[id[i]] == 1; };
       const auto rubs = [&](std::size_t i) { return at_side(i) ? model_.coulomb_sides : model_.coulomb_bed; };
@@ -490,11 +494,7 @@ class ParticleSimulation final : public Simulation {
       put(walls.slip, value);
       for (std::size_t i = 0; i < n; ++i) value[i] = T(rubs(i) ? model_.bed_friction : 0);
       if (p_.coulomb_walls) put(walls.friction, value);
-      for (int k = 0; k < D; ++k) {
-        for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
-        put(walls.normal[k], value);
-        image_v[k] = zeros<T>(n);
-      }
+      for (int k = 0; k < D; ++k) image_v[k] = zeros<T>(n);
       for (auto& q : walls.stress) q = zeros<T>(n);
     }
   }
@@ -534,7 +534,7 @@ class ParticleSimulation final : public Simulation {
         value[i] = T(in.wall_x[3 * std::size_t(id[i]) + axis(k)] - model_.bodies[body[i]].pivot[axis(k)]);
       put(bodies_.arm[k], value);
       bodies_.v[k] = zeros<T>(n), bodies_.a[k] = zeros<T>(n);
-      if (n_soil_) put(bodies_.own_normal[k], host(bodies_.normal[k]));
+      put(bodies_.own_normal[k], host(bodies_.normal[k]));
     }
     put(bodies_.body, body), put(bodies_.rows, rows), put(bodies_.first_row, first);
     put(bodies_.pivot, pivot), put(bodies_.ahead, ahead);

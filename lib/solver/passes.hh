@@ -276,11 +276,9 @@ struct BodyMotion : Pass<Tr> {
       b.own_v[k][i] = T(velocity[axis(k)]);
       b.own_a[k][i] = T(acceleration[axis(k)]);
     }
-    if (this->soil.n) {
-      for (int k = 0; k < D; ++k) normal[axis(k)] = double(b.own_normal[k][i]);
-      rigid_direction(end, ahead_x, ahead_y, normal, direction);
-      for (int k = 0; k < D; ++k) b.direction[k][i] = T(direction[axis(k)]);
-    }
+    for (int k = 0; k < D; ++k) normal[axis(k)] = double(b.own_normal[k][i]);
+    rigid_direction(end, ahead_x, ahead_y, normal, direction);
+    for (int k = 0; k < D; ++k) b.direction[k][i] = T(direction[axis(k)]);
     b.key[i] = inside(place) ? this->grid.cell(x) : this->grid.cells;  // beyond the grid nothing is near it
   }
   static LGIW_FN int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
@@ -682,7 +680,8 @@ struct WaterForces : Pass<Tr> {
   LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
     const auto& p = this->parameters;
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
-      const T mu = p.water_viscosity.mu(dot(B::relative(v, b, j), r), r2);
+      const T vr = approach_to_wall(B::relative(v, b, j), r, B::load(b.normal, j), p.water_slip);
+      const T mu = p.water_viscosity.mu(vr, r2);
       const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
       const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
       add_scaled(a, -(term_i + b.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
@@ -813,8 +812,7 @@ struct SoilForces : Pass<Tr> {
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
       const V n = B::load(b.normal, j), v_ib = B::relative(v, b, j);
       const T slip = b.slip[j];
-      // A slipping wall resists approach only.
-      const T vr = (1 - slip) * dot(v_ib, r) + slip * dot(v_ib, n) * dot(n, r);
+      const T vr = approach_to_wall(v_ib, r, n, slip);
       const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
       const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
       Stress<T, D> stress;

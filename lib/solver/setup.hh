@@ -27,7 +27,8 @@ struct ModelParameters {
   double cfl = 0.4;
   // Water.
   double water_density = 1000, sound_speed = 0, water_alpha = 0, density_diffusion = 0;
-  double shifting = 0;  // A of particle shifting
+  bool water_slips = true;  // along walls
+  double shifting = 0;      // A of particle shifting
   // Soil.
   double soil_density = 0, young_modulus = 0, poisson_ratio = 0.3, friction = 0, cohesion = 0, dilatancy = 0;
   int cone = 0;  // Cone

@@ -26,7 +26,7 @@ inline std::string case_summary(const Case& c) {
   field(int(t.west), int(t.east), int(t.south), int(t.north), t.absorbing_width, t.wall_top, t.reach_angle,
         t.runup_allowance);
   const Water& w = c.water;
-  field(w.present, w.level, w.density, w.sound_speed, w.viscosity_alpha, w.density_diffusion);
+  field(w.present, w.level, w.density, w.sound_speed, w.viscosity_alpha, w.no_slip, w.density_diffusion);
   if (w.seed) field((*w.seed)[0], (*w.seed)[1]);
   for (const auto& body : w.bodies) points(body);
   if (w.wave)

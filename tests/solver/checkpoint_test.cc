@@ -139,7 +139,12 @@ class Resume : public testing::TestWithParam<std::pair<const char*, const char*>
  protected:
   static void SetUpTestSuite() {
     shop = std::make_unique<Workshop>();
-    make_particles(*shop, "slide", slide_case);
+    // A plate at the far end moves as well.
+    write_bytes(*shop / "slide_plate.csv", "t_s,dx_m,dz_m,pitch_deg\n0,0,0,0\n0.2,-0.1,0.01,8\n0.4,-0.25,0.02,2\n");
+    make_particles(*shop, "slide",
+                   slide_case +
+                       "bodies: [{name: plate, outline: [[2.3, 0.1], [2.35, 0.1], [2.35, 0.6], [2.3, 0.6]], "
+                       "motion: slide_plate.csv}]\n");
   }
   static void TearDownTestSuite() { shop.reset(); }
   void SetUp() override {
@@ -206,6 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"leapfrog_double", "--set numerics.precision=double"},
         std::pair{"verlet_single",
                   "--set numerics.scheme=huang2023 --set output.end_time=0.2 --set numerics.precision=single"},
+        std::pair{"shifting", "--set numerics.shifting=2"},
         std::pair{"coulomb_artificial_stress",
                   "--set soil.bed=coulomb --set soil.bed_friction_angle=15 --set soil.artificial_stress=0.3"}),
     [](const auto& parameters) { return parameters.param.first; });

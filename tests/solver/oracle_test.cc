@@ -108,6 +108,12 @@ class Oracle {
   double viscosity(const V& r, const V& v, double alpha_c, double rho) const {
     return dot(v, r) < 0 ? -alpha_c * mu(r, v) / rho : 0;
   }
+  /// Between water and wall: only what is along the wall's normal where water slips.
+  double wall_viscosity(const V& r, const V& v, const V& n, double alpha_c, double rho) const {
+    if (!p.water_slips) return viscosity(r, v, alpha_c, rho);
+    const double approach = dot(v, n) * dot(n, r);
+    return approach < 0 ? -alpha_c * p.h * approach / (dot(r, r) + 0.01 * p.h * p.h) / rho : 0;
+  }
   double soil_c() const { return SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density); }
 
   double water_image(const V& x, const V& gravity) const {
@@ -210,8 +216,8 @@ class Oracle {
       const V r = xw[i] - xb[b];
       if (dot(r, r) >= 4 * p.h * p.h) continue;
       const double pb = water_image(xb[b], g - ab[b]), rho_b = density(pb), m = mw * volume_b[b] / volume;
-      const double sum =
-          pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) + viscosity(r, vw[i] - vb[b], ac, 0.5 * (rho_i + rho_b));
+      const double sum = pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) +
+                         wall_viscosity(r, vw[i] - vb[b], nb[b], ac, 0.5 * (rho_i + rho_b));
       add_scaled(a, -m * sum * f(std::sqrt(dot(r, r))), r);
     }
     for (std::size_t j = 0; j < xs.size(); ++j) {
