@@ -27,6 +27,7 @@ def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + "
 "  run-up           \(.runup_m | short) m above still level on the opposite bank",
 "  conservation     mass error \(.mass_error | scientific), density error \(.density_error | scientific)",
 "  uncertainty      \($uncertainty)",
+((.warnings // [])[] | "  warning          \(.)"),
 "  left out         \(if (.left_out | length) == 0 then "nothing" else (.left_out | join("\n                   ")) end)",
 "",
 "  \("gauge" | fill(10)) \("x (m)" | pad(10)) \("y (m)" | pad(11)) \("highest (m)" | pad(12)) " +

@@ -69,6 +69,38 @@ nlohmann::json json_in(const Workshop& workshop, const std::string& name) {
   return nlohmann::json::parse(read_bytes(workshop / name));
 }
 
+/// The flume with a rigid wedge that runs 0.2 m down the slope within half a second, through make: there is a wave and
+/// no deposit.
+TEST(Pipeline, ARigidSlideThrowsAWaveAndLeavesNoDeposit) {
+  const Workshop workshop;
+  fs::create_directory(workshop / "rigid");
+  std::string text = flume_case;
+  const std::size_t soil = text.find("soil:"), output = text.find("output:");
+  text.replace(soil, output - soil, "");
+  text.insert(text.find("output:"), "  motion: {file: motion.csv}\n");
+  write_bytes(workshop / "rigid/case.yaml", text);
+  std::string motion = "t_s,dx_m,dz_m\n";
+  for (int k = 0; k <= 10; ++k) {
+    const double t = 0.05 * k, way = 0.2 * (3 * t * t / 0.25 - 2 * t * t * t / 0.125);
+    motion += std::to_string(t) + "," + std::to_string(way * std::sqrt(0.5)) + "," +
+              std::to_string(-way * std::sqrt(0.5)) + "\n";
+  }
+  write_bytes(workshop / "rigid/motion.csv", motion);
+  const std::string out = (workshop / "out").string();
+  const Outcome outcome = workshop.run("env -u MAKEFLAGS -u MAKELEVEL make -C '" LGIW_SOURCE_DIR
+                                       "/pipelines' BIN='" LGIW_BIN_DIR "' CASE_DIR='" +
+                                       (workshop / "rigid").string() + "' out='" + out + "' '" + out + "/summary.txt'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  const auto summary = json_in(workshop, "out/summary.json");
+  EXPECT_EQ(summary["particles"]["soil"], 0);
+  EXPECT_FALSE(summary.contains("slide_volume_m3"));
+  EXPECT_FALSE(fs::exists(workshop / "out/slide.csv"));
+  const auto& near = summary["gauges"][0];
+  EXPECT_EQ(near["name"], "near");
+  EXPECT_GT(near["max_height_m"].get<double>(), 0.005);
+  EXPECT_LT(near["max_height_m"].get<double>(), 0.06);
+}
+
 TEST(Pipeline, FlumeSlideThrowsAWaveThatTheNearGaugeSeesFirst) {
   const Workshop workshop;
   write_flume(workshop);
