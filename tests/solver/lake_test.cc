@@ -10,10 +10,7 @@ namespace lgiw::test {
 namespace {
 
 TEST(LakeAtRest, RealCanyonCalmsDownAndKeepsItsLevel) {
-  // Beds that hold the water: what is left of the settling decays as the bulk's viscosity says. On slipping ones the
-  // water that the uneven bed still sets in motion moves on about twice as fast (docs/verification.md).
-  Case c = read_case(LGIW_SOURCE_DIR "/pipelines/lake-at-rest/case.yaml",
-                     {"particle_spacing=30", "water.walls=no_slip"});
+  Case c = read_case(LGIW_SOURCE_DIR "/pipelines/lake-at-rest/case.yaml", {"particle_spacing=30"});
   CaseRun run(c);
   ASSERT_GT(run.data.water.size(), 3000u);
   EXPECT_EQ(run.data.soil.size(), 0u);
