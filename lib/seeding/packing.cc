@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "physics/kernel.hh"
+
 namespace lgiw {
 
 namespace {
@@ -12,6 +14,16 @@ namespace {
 constexpr int sweeps = 50;
 constexpr double relaxation = 0.25, largest_shift = 0.1;  // times h2 grad; of dp
 constexpr double reach_margin = 1.5;                      // of dp: how far a particle may get between two searches
+
+/// Indices of the particles in the order of x (then y, z, index).
+std::vector<std::size_t> sorted_by_x(const std::vector<PackedParticle>& particles) {
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return particles[a].place != particles[b].place ? particles[a].place < particles[b].place : a < b;
+  });
+  return order;
+}
 
 }  // namespace
 
@@ -24,13 +36,8 @@ void pack(std::vector<PackedParticle>& particles, double dp, bool two_d,
     if (particles[k].moves) moving.push_back(k);
   if (moving.empty()) return;
 
-  // Neighbours from one search: shifts are a fraction of dp. Particles sorted by x, so that those within reach are a
-  // run.
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return particles[a].place != particles[b].place ? particles[a].place < particles[b].place : a < b;
-  });
+  // Neighbours from one search: shifts are a fraction of dp. In the order of x those within reach are a run.
+  const std::vector<std::size_t> order = sorted_by_x(particles);
   std::vector<std::vector<uint32_t>> neighbours(moving.size());
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t m = 0; m < moving.size(); ++m) {
@@ -45,8 +52,9 @@ void pack(std::vector<PackedParticle>& particles, double dp, bool two_d,
     }
   }
 
-  // W = w0 (1 - q/2)^4 (2 q + 1), so grad W = -5 w0 q (1 - q/2)^3 r / (h |r|).
-  const double w0 = two_d ? 7 / (4 * M_PI * h * h) : 21 / (16 * M_PI * h * h * h);
+  const auto gradient = [two_d, plane = Wendland<double, 2>(h), space = Wendland<double, 3>(h)](double r) {
+    return two_d ? plane.gradient(r) : space.gradient(r);  // W'/r
+  };
   std::vector<std::array<double, 3>> next(moving.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
 #pragma omp parallel for schedule(static)
@@ -57,9 +65,8 @@ void pack(std::vector<PackedParticle>& particles, double dp, bool two_d,
         const PackedParticle& other = particles[k];
         const std::array<double, 3> r{me.place[0] - other.place[0], me.place[1] - other.place[1],
                                       me.place[2] - other.place[2]};
-        const double q = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) / h;
-        if (q >= 2 || q <= 0) continue;
-        const double b = 1 - 0.5 * q, weight = relaxation * 5 * w0 * b * b * b * other.volume;
+        const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        const double weight = -relaxation * h * h * gradient(distance) * other.volume;
         for (std::size_t axis = 0; axis < 3; ++axis) shift[axis] += weight * r[axis];
       }
       if (two_d) shift[1] = 0;
@@ -75,11 +82,7 @@ void pack(std::vector<PackedParticle>& particles, double dp, bool two_d,
 }
 
 std::vector<uint8_t> nearer_than(const std::vector<PackedParticle>& particles, double distance) {
-  std::vector<std::size_t> order(particles.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return particles[a].place != particles[b].place ? particles[a].place < particles[b].place : a < b;
-  });
+  const std::vector<std::size_t> order = sorted_by_x(particles);
   std::vector<uint8_t> marked(particles.size(), 0);
   for (std::size_t a = 0; a < order.size(); ++a)
     for (std::size_t b = a + 1; b < order.size(); ++b) {
