@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hh"
+#include "solver/backend_array.hh"
 #include "solver/passes.hh"
 
 namespace lgiw {
@@ -74,32 +75,16 @@ struct CudaBackend {
   static constexpr int steps_per_check = 16;
   static constexpr int block = 128;
 
-  template <class T>
-  class Array {
-   public:
-    Array() = default;
-    explicit Array(std::size_t n) : size_(n) {
-      if (n) check_cuda(cudaMalloc(reinterpret_cast<void**>(&data_), n * sizeof(T)), "memory for particles");
+  struct Memory {
+    static void* take(std::size_t bytes) {
+      void* data = nullptr;
+      check_cuda(cudaMalloc(&data, bytes), "memory for particles");
+      return data;
     }
-    ~Array() {
-      if (data_) cudaFree(data_);
-    }
-    Array(Array&& o) noexcept { swap(o); }
-    Array& operator=(Array&& o) noexcept {
-      swap(o);
-      return *this;
-    }
-    void swap(Array& o) noexcept {
-      std::swap(data_, o.data_);
-      std::swap(size_, o.size_);
-    }
-    T* data() const { return data_; }
-    std::size_t size() const { return size_; }
-
-   private:
-    T* data_ = nullptr;
-    std::size_t size_ = 0;
+    static void give(void* data) { cudaFree(data); }
   };
+  template <class T>
+  using Array = BackendArray<T, Memory>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {

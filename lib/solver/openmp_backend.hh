@@ -7,6 +7,7 @@
 #include <new>
 #include <vector>
 
+#include "solver/backend_array.hh"
 #include "solver/passes.hh"
 
 namespace lgiw {
@@ -15,33 +16,13 @@ struct OpenMpBackend {
   static constexpr bool on_host = true;
   static constexpr int steps_per_check = 1;
 
-  /// Memory aligned for vector loads; contents are undefined until written.
-  template <class T>
-  class Array {
-   public:
-    Array() = default;
-    explicit Array(std::size_t n) : size_(n) {
-      if (n) data_ = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
-    }
-    ~Array() {
-      if (data_) ::operator delete(data_, std::align_val_t(64));
-    }
-    Array(Array&& o) noexcept { swap(o); }
-    Array& operator=(Array&& o) noexcept {
-      swap(o);
-      return *this;
-    }
-    void swap(Array& o) noexcept {
-      std::swap(data_, o.data_);
-      std::swap(size_, o.size_);
-    }
-    T* data() const { return data_; }
-    std::size_t size() const { return size_; }
-
-   private:
-    T* data_ = nullptr;
-    std::size_t size_ = 0;
+  /// Aligned for vector loads.
+  struct Memory {
+    static void* take(std::size_t bytes) { return ::operator new(bytes, std::align_val_t(64)); }
+    static void give(void* data) { ::operator delete(data, std::align_val_t(64)); }
   };
+  template <class T>
+  using Array = BackendArray<T, Memory>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {
