@@ -34,7 +34,7 @@ struct Parameters {
   EquationOfState<T> eos;
   WaterContinuity<T, D> continuity;
   ArtificialViscosity<T, D> water_viscosity;
-  T water_slip;  // 1: walls resist water that comes at them only; 0: all motion
+  bool water_slips;  // along walls: they resist only water that comes at them
   T water_mass;
   bool density_diffusion;
   ParticleShifting<T, D> shifting;
@@ -82,7 +82,7 @@ struct Parameters {
     shifting = ParticleShifting<T, D>(water ? p.shifting : 0, p.h);
     continuity.diffusion = T(2 * p.density_diffusion * p.h * c);
     water_viscosity = ArtificialViscosity<T, D>(p.water_alpha, c, p.h);
-    water_slip = p.water_slips ? T(1) : T(0);
+    water_slips = p.water_slips;
 
     const double cs =
         with_soil ? SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density) : 0;

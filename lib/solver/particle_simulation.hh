@@ -470,6 +470,8 @@ class ParticleSimulation final : public Simulation {
       if ((!in.wall_body.empty() && in.wall_body[i] > 0) == moving) out.push_back(unsigned(i));
     return out;
   }
+  /// Soil needs the normals of walls; water does where it slips along them.
+  bool needs_normals() const { return n_soil_ || (n_water_ && p_.water_slips); }
   /// What walls and bodies have in common, in the order of `id`.
   template <class Walls>
   void fill_common(const InitialParticles& in, const std::vector<unsigned>& id, Walls& walls, Array<T>* image_v) {
@@ -482,7 +484,7 @@ class ParticleSimulation final : public Simulation {
     for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[id[i]] / double(p_.volume));
     put(walls.weight, value), put(walls.id, id);
     if (n_water_) walls.term = zeros<T>(n), walls.excess = zeros<T>(n);
-    for (int k = 0; k < D; ++k) {
+    for (int k = 0; k < D && needs_normals(); ++k) {
       for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
       put(walls.normal[k], value);
     }
@@ -534,7 +536,7 @@ class ParticleSimulation final : public Simulation {
         value[i] = T(in.wall_x[3 * std::size_t(id[i]) + axis(k)] - model_.bodies[body[i]].pivot[axis(k)]);
       put(bodies_.arm[k], value);
       bodies_.v[k] = zeros<T>(n), bodies_.a[k] = zeros<T>(n);
-      put(bodies_.own_normal[k], host(bodies_.normal[k]));
+      if (needs_normals()) put(bodies_.own_normal[k], host(bodies_.normal[k]));
     }
     put(bodies_.body, body), put(bodies_.rows, rows), put(bodies_.first_row, first);
     put(bodies_.pivot, pivot), put(bodies_.ahead, ahead);

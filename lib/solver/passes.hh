@@ -276,9 +276,11 @@ struct BodyMotion : Pass<Tr> {
       b.own_v[k][i] = T(velocity[axis(k)]);
       b.own_a[k][i] = T(acceleration[axis(k)]);
     }
-    for (int k = 0; k < D; ++k) normal[axis(k)] = double(b.own_normal[k][i]);
-    rigid_direction(end, ahead_x, ahead_y, normal, direction);
-    for (int k = 0; k < D; ++k) b.direction[k][i] = T(direction[axis(k)]);
+    if (b.direction[0]) {  // where a phase needs the normals
+      for (int k = 0; k < D; ++k) normal[axis(k)] = double(b.own_normal[k][i]);
+      rigid_direction(end, ahead_x, ahead_y, normal, direction);
+      for (int k = 0; k < D; ++k) b.direction[k][i] = T(direction[axis(k)]);
+    }
     b.key[i] = inside(place) ? this->grid.cell(x) : this->grid.cells;  // beyond the grid nothing is near it
   }
   static LGIW_FN int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
@@ -676,16 +678,26 @@ struct WaterForces : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
-  template <class Walls>
+  template <bool slips, class Walls>
   LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
     const auto& p = this->parameters;
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
-      const T vr = approach_to_wall(B::relative(v, b, j), r, B::load(b.normal, j), p.water_slip);
+      const V v_ib = B::relative(v, b, j);
+      T vr;
+      if constexpr (slips)
+        vr = approach_to_wall(v_ib, r, B::load(b.normal, j), T(1));
+      else
+        vr = dot(v_ib, r);
       const T mu = p.water_viscosity.mu(vr, r2);
       const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
       const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
       add_scaled(a, -(term_i + b.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
     });
+  }
+  template <bool slips>
+  LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
+    if (this->wall.n) over_walls<slips>(this->wall, cell, x, v, term_i, rho_i, a);
+    if (this->bodies.n) over_walls<slips>(this->bodies, cell, x, v, term_i, rho_i, a);
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -704,8 +716,10 @@ struct WaterForces : Pass<Tr> {
       mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
       add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
     });
-    if (this->wall.n) over_walls(this->wall, cell, x, v, term_i, rho_i, a);
-    if (this->bodies.n) over_walls(this->bodies, cell, x, v, term_i, rho_i, a);
+    if (p.water_slips)
+      over_all_walls<true>(cell, x, v, term_i, rho_i, a);
+    else
+      over_all_walls<false>(cell, x, v, term_i, rho_i, a);
     a = p.water_mass * a;
     if (this->soil.n) {
       this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
