@@ -92,4 +92,18 @@ LGIW_FN T approach_to_wall(const Vec<T, D>& v, const Vec<T, D>& r, const Vec<T, 
   return (1 - slip) * dot(v, r) + slip * dot(v, n) * dot(n, r);
 }
 
+/// Walls push water and never pull it: p_i/rho_i^2 + p_w/rho_w^2 of a pair with a wall particle, or 0. Water that
+/// leaves a wall has air behind it, which the model lacks. Where walls pull, thin sheets seep into them, and drops that
+/// touched one are caught.
+template <class T>
+LGIW_FN T push_of_wall(T term, T wall_term) {
+  return largest(T(0), term + wall_term);
+}
+/// The same for continuity: d(rho)/dt by all walls (kg/m3/s), less what would stretch water below its reference
+/// density.
+template <class T>
+LGIW_FN T compression_by_walls(T rate, T excess) {
+  return excess > 0 ? rate : largest(T(0), rate);
+}
+
 }  // namespace lgiw

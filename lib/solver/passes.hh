@@ -344,8 +344,10 @@ struct WaterRates : Pass<Tr> {
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
-    if (this->wall.n) rate += over_walls(this->wall, cell, x, v);
-    if (this->bodies.n) rate += over_walls(this->bodies, cell, x, v);
+    T at_walls = 0;
+    if (this->wall.n) at_walls += over_walls(this->wall, cell, x, v);
+    if (this->bodies.n) at_walls += over_walls(this->bodies, cell, x, v);
+    rate += compression_by_walls(at_walls, w.excess[i]);
     if (this->soil.n) {
       T sum = 0;
       this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
@@ -691,7 +693,8 @@ struct WaterForces : Pass<Tr> {
       const T mu = p.water_viscosity.mu(vr, r2);
       const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
       const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
-      add_scaled(a, -(term_i + b.term[j] + p.water_viscosity(mu, rho_mean)) * f, r);
+      const T push = push_of_wall(term_i, b.term[j]) + p.water_viscosity(mu, rho_mean);
+      add_scaled(a, -push * f, r);
     });
   }
   template <bool slips>

@@ -41,6 +41,19 @@ TEST(ArtificialViscosity, ActsOnApproachOnlyAndEvenly) {
   EXPECT_NEAR(law(mu, 1000), -0.05 * 100 * mu / 1000, 1e-15);
   EXPECT_GT(law(mu, 1000), 0);
 }
+TEST(Walls, PushWaterAndNeverPullIt) {
+  EXPECT_NEAR(push_of_wall(2.0, 1.0), 3, 1e-15);
+  EXPECT_NEAR(push_of_wall(2.0, -1.5), 0.5, 1e-15);  // the pair presses, though the wall alone would pull
+  EXPECT_EQ(push_of_wall(-2.0, 1.5), 0);
+  EXPECT_EQ(push_of_wall(-2.0, -1.0), 0);
+}
+TEST(Walls, CompressWaterAndStretchItNoFurtherThanItsReferenceDensity) {
+  EXPECT_EQ(compression_by_walls(4.0, -1.0), 4);
+  EXPECT_EQ(compression_by_walls(4.0, 1.0), 4);
+  EXPECT_EQ(compression_by_walls(-4.0, 1.0), -4);
+  EXPECT_EQ(compression_by_walls(-4.0, 0.0), 0);
+  EXPECT_EQ(compression_by_walls(-4.0, -1.0), 0);
+}
 
 }  // namespace
 }  // namespace lgiw

@@ -88,7 +88,7 @@ inline Cloud cloud(const CloudOptions& o) {
         } else {
           s.in.water_x.insert(s.in.water_x.end(), {x, y, z});
           for (int c = 0; c < 3; ++c) s.in.water_v.push_back(o.dimension == 2 && c == 1 ? 0 : float(0.3 * u(random)));
-          s.in.water_excess.push_back(float(2 + u(random)));
+          s.in.water_excess.push_back(float(0.5 + 2.5 * u(random)));  // also below the reference density
         }
       }
   return s;

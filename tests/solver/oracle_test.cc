@@ -216,7 +216,7 @@ class Oracle {
       const V r = xw[i] - xb[b];
       if (dot(r, r) >= 4 * p.h * p.h) continue;
       const double pb = water_image(xb[b], g - ab[b]), rho_b = density(pb), m = mw * volume_b[b] / volume;
-      const double sum = pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b) +
+      const double sum = std::max(0.0, pi_i / (rho_i * rho_i) + pb / (rho_b * rho_b)) +
                          wall_viscosity(r, vw[i] - vb[b], nb[b], ac, 0.5 * (rho_i + rho_b));
       add_scaled(a, -m * sum * f(std::sqrt(dot(r, r))), r);
     }
@@ -287,7 +287,7 @@ class Oracle {
     return pressure;
   }
   double density_rate(std::size_t i) const {
-    double rate = 0;
+    double rate = 0, at_walls = 0;
     for (std::size_t j = 0; j < xw.size(); ++j) {
       if (j == i) continue;
       const V r = xw[i] - xw[j];
@@ -298,8 +298,9 @@ class Oracle {
     }
     for (std::size_t b = 0; b < xb.size(); ++b) {
       const V r = xw[i] - xb[b];
-      rate += mw * volume_b[b] / volume * dot(vw[i] - vb[b], r) * f(std::sqrt(dot(r, r)));
+      at_walls += mw * volume_b[b] / volume * dot(vw[i] - vb[b], r) * f(std::sqrt(dot(r, r)));
     }
+    if (ew[i] > 0 || at_walls > 0) rate += at_walls;
     for (std::size_t j = 0; j < xs.size(); ++j) {
       const V r = xw[i] - xs[j];
       rate += mw * p.velocity_factor * dot(vw[i] - vs[j], r) * f(std::sqrt(dot(r, r)));
