@@ -68,7 +68,7 @@ struct Water {
   double density = 1000;
   double sound_speed = 0;  // m/s; 0: automatic
   double viscosity_alpha = 0.05;
-  bool no_slip = true;             // artificial viscosity along walls, too, and not against them only
+  bool no_slip = false;  // artificial viscosity along walls, too, and not against them only
   double density_diffusion = 0.1;  // delta; 0 leaves it out
   std::vector<std::vector<Point2>>
       bodies;                // 2-D/analytic: (x, z) polygons of water instead of "everything below level"

@@ -242,6 +242,7 @@ void apply_scheme_defaults(Case& c) {
   c.numerics.return_mapping = false;
   c.numerics.wall_viscosity = false;
   c.water.viscosity_alpha = 0.05;
+  c.water.no_slip = true;
   c.water.density_diffusion = 0;
   c.soil.viscosity_alpha = 0.1;
   c.soil.stress_diffusion = 0;

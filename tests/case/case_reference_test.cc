@@ -89,22 +89,22 @@ TEST(CaseReference, ValuesShownAreTheDefaults) {
 }
 
 TEST(CaseReference, StatesTheDefaultsOfTheSchemeOfHuang2023) {
-  const Case scheme =
-      read_case(reference_path, {"soil=null", "interface=null", "numerics={scheme: huang2023}",
-                                 "water.density_diffusion=null", "water.viscosity_alpha=null", "water.walls=null"});
-  const Case stated = read_case(
-      reference_path, {"numerics.scheme=huang2023", "numerics.kernel=cubic", "numerics.h_over_dp=1.5",
-                       "numerics.integrator=verlet", "numerics.cfl=0.2", "numerics.constitutive=rate_form",
-                       "numerics.wall_viscosity=false", "soil.viscosity_alpha=0.1", "soil.stress_diffusion=0",
-                       "soil.artificial_stress=0.5", "soil.pore_pressure=none", "interface.repulsion=true",
-                       "interface.velocity_factor=2", "water.density_diffusion=0", "water.viscosity_alpha=0.05"});
+  const Case scheme = read_case(reference_path, {"soil=null", "interface=null", "numerics={scheme: huang2023}",
+                                                 "water.density_diffusion=null", "water.viscosity_alpha=null", "water.walls=null"});
+  const Case stated =
+      read_case(reference_path, {"numerics.scheme=huang2023", "numerics.kernel=cubic", "numerics.h_over_dp=1.5",
+                                 "numerics.integrator=verlet", "numerics.cfl=0.2", "numerics.constitutive=rate_form",
+                                 "numerics.wall_viscosity=false", "water.walls=no_slip", "soil.viscosity_alpha=0.1",
+                                 "soil.stress_diffusion=0", "soil.artificial_stress=0.5", "soil.pore_pressure=none",
+                                 "interface.repulsion=true", "interface.velocity_factor=2", "water.density_diffusion=0",
+                                 "water.viscosity_alpha=0.05"});
   EXPECT_EQ(case_summary(scheme), case_summary(stated));
   // Each of them is stated where the key is explained.
   std::string text;
   for (const std::string& line : reference_lines()) text += line + "\n";
   for (const char* note : {"(huang2023: cubic)", "(huang2023: 1.5)", "(huang2023: verlet)", "(huang2023: 0.2)",
                            "(huang2023: rate_form)", "(huang2023: false)", "(huang2023: 0.1)", "(huang2023: 0)",
-                           "(huang2023: 0.5,", "(huang2023: none)", "(huang2023: 2)"})
+                           "(huang2023: 0.5,", "(huang2023: none)", "(huang2023: 2)", "(huang2023: no_slip)"})
     EXPECT_NE(text.find(note), std::string::npos) << note;
 }
 

@@ -28,7 +28,7 @@ TEST(MovingBody, APistonRaisesTheWaterAheadAndDrawsItDownBehind) {
   }
   CaseRun run(
       "name: piston\ndimension: 2\nparticle_spacing: 0.01\nterrain: {profile: [[0, 0], [3.6, 0]]}\n"
-      "water: {level: 0.15, viscosity_alpha: 0.05, walls: free_slip}\n"
+      "water: {level: 0.15, viscosity_alpha: 0.05}\n"
       "bodies: [{name: piston, outline: [[1.77, 0], [1.8, 0], [1.8, 0.25], [1.77, 0.25]], motion: " +
       motion.string() + "}]\n");
   fs::remove(motion);

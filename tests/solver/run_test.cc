@@ -333,6 +333,23 @@ TEST_F(Run, WhatLeavesThroughAnOpenSideIsCountedAndTheRunGoesOn) {
     }
 }
 
+TEST_F(Run, NothingSeepsThroughTheWallsOfATank) {
+  // A column that breaks, climbs the far wall and falls back: thin sheets and drops at every wall.
+  std::string tank = dam_case;
+  tank.replace(tank.find("[1.5, 0]"), 8, "[0.6, 0]");
+  tank.replace(tank.find(", sides: {east: open}"), 21, ", wall_top: 1");
+  ASSERT_TRUE(make_particles(*shop, "tank", tank));
+  for (const char* walls : {"free_slip", "no_slip"}) {
+    expect_quiet_success(shop->run("lgiw-run tank.h5 -o tank-run.h5 -O --summary tank.json" + quiet +
+                                   "--set output.end_time=2.4 --set water.walls=" + walls),
+                         "");
+    const json s = summary("tank");
+    EXPECT_EQ(s.at("lost").at("water"), 0) << walls;
+    const auto below = RunReader((*shop / "tank-run.h5").string()).diagnostics().at("below_bed");
+    EXPECT_EQ(*std::max_element(below.begin(), below.end()), 0) << walls;
+  }
+}
+
 TEST_F(Run, DivergenceNamesParticlePlaceAndLastGoodState) {
   particles("dam");
   // Water whose sound travels at 1.6 m/s cannot stay near its density in a flow of 2 m/s.
