@@ -15,9 +15,11 @@ validation_out := $(here)/out/validation
 study_out := $(here)/out/error-vs-time
 validation_cases := $(notdir $(patsubst %/runs.txt,%,$(wildcard $(validation)/*/runs.txt)))
 study_cases := $(notdir $(patsubst %/study.txt,%,$(wildcard $(validation)/*/study.txt)))
-lgiw_validation := $(build)/bin/lgiw-validation
+lgiw_validation := $(bin)/lgiw-validation
+ifndef BIN
 $(lgiw_validation): compile
 	@:
+endif
 
 # CASE/RUN of the lists FILE that have one of the levels; a line of a list is: run, its levels, arguments of dem2particles.
 listed_runs = $(shell cd $(validation) && awk -v levels="$(2)" '\
