@@ -340,6 +340,14 @@ TEST_F(MeasuringTools, TwoDimensionsAndSoilAlone) {
                  "gauges: slab.h5 has no water (there is no run-up and no wave to map) leave out --maps and --runup");
   expect_refused("gauges slab.h5 -q",
                  "gauges: there is no gauge (the case names none) add gauges to the case or pass --gauge name,x,y");
+  header.pressure_gauges = {"P1"};
+  RunWriter pressure((shop / "pressure.h5").string(), header);
+  pressure.add_surface(0, {}, std::vector<float>(31, NAN), {9.81f});
+  pressure.close();
+  expect_refused("gauges pressure.h5 -q",
+                 "gauges: there is no gauge (the case has pressure gauges only) write those with --pressure FILE, or "
+                 "pass --gauge name,x,y");
+  expect_quiet_success(shop.run("gauges pressure.h5 -q --no-provenance --pressure p1.csv"), "gauges pressure.h5");
   expect_refused(
       "deposit-volume slab.h5 --thickness t.tif",
       "deposit-volume: --thickness is for 3-D runs (slab.h5 is 2-D) leave it out; --profiles has the deposit");

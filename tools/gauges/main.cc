@@ -348,8 +348,11 @@ int run(const Options& options, const std::string& command) {
   const bool stdout_used =
       options.common.json || !options.compare.empty() || (other_outputs && gauges.series().empty());
   const std::string output = !options.output.empty() ? options.output : stdout_used ? "" : "-";
+  const bool only_pressure = !header.pressure_gauges.empty();
   LGIW_VALIDATE(!gauges.series().empty() || (output.empty() && options.peaks.empty() && options.netcdf.empty()),
-                "there is no gauge", "the case names none", "add gauges to the case or pass --gauge name,x,y");
+                "there is no gauge", only_pressure ? "the case has pressure gauges only" : "the case names none",
+                only_pressure ? "write those with --pressure FILE, or pass --gauge name,x,y"
+                              : "add gauges to the case or pass --gauge name,x,y");
   outputs.insert(outputs.begin(), {output, options.comparison_output()});
   std::vector<std::string> inputs{options.run, options.case_file};
   inputs.insert(inputs.end(), options.compare.begin(), options.compare.end());
