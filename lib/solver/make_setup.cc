@@ -70,6 +70,22 @@ void differentiate(std::vector<MotionRow>& rows, double (MotionRow::*of)[4], dou
   }
 }
 
+/// z up to which walls stand along each side, far below without any.
+std::array<double, 4> tops_of_sides(const ParticleData& data) {
+  std::array<double, 4> top{-1e300, -1e300, -1e300, -1e300};
+  const auto& header = data.header;
+  for (std::size_t i = 0; i < data.wall.kind.size(); ++i) {
+    if (data.wall.kind[i] != 1) continue;
+    const double* x = &data.wall.points[3 * i];
+    for (std::size_t side = 0; side < 4; ++side) {
+      const std::size_t axis = side / 2;
+      const bool beyond = side % 2 ? x[axis] > header.high[axis] : x[axis] < header.low[axis];
+      if (beyond) top[side] = std::max(top[side], x[2] + 0.5 * header.dp);
+    }
+  }
+  return top;
+}
+
 }  // namespace
 
 PrescribedMotion prescribed_motion(const BodyMotion& motion) {
@@ -147,6 +163,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
   p.image_gravity = c.numerics.scheme != "huang2023";
   p.low = header.low, p.high = header.high;
   p.side_at = {header.low[0], header.high[0], header.low[1], header.high[1]};
+  p.side_top = tops_of_sides(data);
   p.absorbing_width = header.absorbing_width;
   bool any_absorbing = false;
   for (int side = 0; side < 4; ++side) {

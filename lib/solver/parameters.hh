@@ -54,7 +54,7 @@ struct Parameters {
   bool image_gravity;
   // Domain.
   double low[D], high[D];
-  double side_at[4];
+  double side_at[4], side_top[4];  // z up to which there is a wall
   int absorbing[4];
   double absorbing_width;
   T absorbing_rate, settle_rate, soil_settle_rate;
@@ -117,7 +117,7 @@ struct Parameters {
     mass_ratio = with_soil ? T(p.water_density / p.soil_density) : T(0);
     image_gravity = p.image_gravity;
 
-    for (int s = 0; s < 4; ++s) absorbing[s] = p.absorbing[s], side_at[s] = p.side_at[s];
+    for (int s = 0; s < 4; ++s) absorbing[s] = p.absorbing[s], side_at[s] = p.side_at[s], side_top[s] = p.side_top[s];
     absorbing_width = p.absorbing_width;
     absorbing_rate = T(p.absorbing_rate), settle_rate = T(p.settle_rate);
     soil_settle_rate = T(p.soil_settle_rate);

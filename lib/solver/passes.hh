@@ -181,12 +181,13 @@ struct Motion : Pass<Tr> {
         if (w.shift[k]) dx += st.dt * double(w.shift[k][i]);
       }
       const P position = P(double(w.position[k][i]) + dx);
-      w.v[k][i] = v;
-      speed2 += double(v) * double(v);
       fine = fine && sound(double(position), 1e12);
       x.c[k] = double(position);
+      if (k < D - 1 && stopped_by_side(k, x.c[k], double(w.position[D - 1][i]))) v = 0;
+      w.v[k][i] = v;
+      speed2 += double(v) * double(v);
       inside = inside && x.c[k] >= p.low[k] && x.c[k] <= p.high[k];
-      if (inside) w.position[k][i] = position;
+      if (inside) w.position[k][i] = P(x.c[k]);
     }
     fine = fine && sound(speed2, double(p.speed_limit) * double(p.speed_limit));
     if (!fine) {
@@ -207,6 +208,20 @@ struct Motion : Pass<Tr> {
       for (int k = 0; k < D; ++k) rounded.c[k] = T(x.c[k]);
       w.key[i] = this->grid.cell(rounded);
     }
+  }
+  /// Nothing passes the walls along the sides of the domain: what the pressure of thin, slow sheets lets through stays
+  /// at their surface. True where that happened.
+  LGIW_FN bool stopped_by_side(int k, double& x, double z) const {
+    const auto& p = this->parameters;
+    if (x < p.low[k] && z < p.side_top[2 * k]) {
+      x = p.low[k];
+      return true;
+    }
+    if (x > p.high[k] && z < p.side_top[2 * k + 1]) {
+      x = p.high[k];
+      return true;
+    }
+    return false;
   }
   LGIW_FN void operator()(int i) const {
     if constexpr (is_water)

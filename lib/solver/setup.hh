@@ -46,8 +46,10 @@ struct ModelParameters {
   // Domain.
   double still_water_level = 0;
   std::array<double, 3> low{}, high{};
-  std::array<bool, 4> absorbing{};                 // west, east, south, north
-  std::array<double, 4> side_at{};                 // their coordinates
+  std::array<bool, 4> absorbing{};  // west, east, south, north
+  std::array<double, 4> side_at{};  // their coordinates
+  // up to where walls stand there, z in m
+  std::array<double, 4> side_top{-1e300, -1e300, -1e300, -1e300};
   double absorbing_width = 0, absorbing_rate = 0;  // m, 1/s at the side itself
   double settle_rate = 0, soil_settle_rate = 0;    // 1/s: damping of water and soil while settling
   double settle_time = 0;                          // s
