@@ -14,12 +14,12 @@ struct Rates {
 };
 constexpr Rates rates_2d{3.0e6, 3.0e6}, rates_3d{1.0e6, 1.0e6};
 
-/// Errors measured with at least `particles` across the length that counts, coarsest first (docs/verification.md).
+/// Errors measured with at least `particles` across the length that counts, coarsest first (docs/accuracy-table.md: viroulet, tank).
 struct MeasuredError {
   double particles, error;
 };
-constexpr MeasuredError crest_by_slide_thickness[] = {{11, 0.10}};
-constexpr MeasuredError pressure_by_water_depth[] = {{40, 0.0042}};
+constexpr MeasuredError crest_by_slide_thickness[] = {{11, 0.06}, {22, 0.02}};
+constexpr MeasuredError pressure_by_water_depth[] = {{10, 0.0084}, {20, 0.0049}, {40, 0.0042}};
 
 template <std::size_t n>
 std::optional<double> error_at(const MeasuredError (&table)[n], double particles) {

@@ -42,17 +42,17 @@ TEST(Estimate, RatesGrowWithThreadsAndFallWithTheDimension) {
 
 TEST(Estimate, ErrorClassIsThatOfTheMeasurements) {
   const ErrorClass fine = expected_error(23, 45);
-  EXPECT_EQ(fine.crest, 0.10);
+  EXPECT_EQ(fine.crest, 0.02);
   EXPECT_EQ(fine.pressure, 0.0042);
   EXPECT_EQ(fine.text,
-            "error to expect from what was measured: first crest within 10 % (slide thickness); pressure within 0.42 % "
+            "error to expect from what was measured: first crest within 2 % (slide thickness); pressure within 0.42 % "
             "of rho g H (water depth)");
   const ErrorClass coarse = expected_error(5, 8.5);
   EXPECT_FALSE(coarse.crest);
   EXPECT_FALSE(coarse.pressure);
   EXPECT_EQ(coarse.text,
             "error to expect from what was measured: first crest not measured below 11 particles (here 5) (slide "
-            "thickness); pressure not measured below 40 particles (here 8.5) (water depth)");
+            "thickness); pressure not measured below 10 particles (here 8.5) (water depth)");
   EXPECT_EQ(expected_error({}, 40).text,
             "error to expect from what was measured: pressure within 0.42 % of rho g H (water depth)");
   EXPECT_EQ(expected_error({}, {}).text, "error to expect from what was measured: nothing to go by");
