@@ -14,7 +14,8 @@ struct Rates {
 };
 constexpr Rates rates_2d{3.0e6, 3.0e6}, rates_3d{1.0e6, 1.0e6};
 
-/// Errors measured with at least `particles` across the length that counts, coarsest first (docs/accuracy-table.md: viroulet, tank).
+/// Errors measured with at least `particles` across the length that counts, coarsest first (docs/accuracy-table.md:
+/// viroulet, tank).
 struct MeasuredError {
   double particles, error;
 };

@@ -313,8 +313,7 @@ class Oracle {
     double l[D * D] = {};
     S smoothing{};
     MomentMatrix<double, D> moment;
-    auto add = [&](const V& now, const V& v_ji, const V& v_ij, double weight) {
-      const V r = earlier(now, v_ij, p.verlet ? 0 : dt);
+    auto add = [&](const V& r, const V& v_ji, double weight) {
       const double w = weight * f(size(r));
       moment.add(w, r);
       for (int a = 0; a < D; ++a)
@@ -323,15 +322,15 @@ class Oracle {
     const S rest = at_rest(xs[i][D - 1]);
     for (std::size_t j = 0; j < xs.size(); ++j) {
       if (j == i) continue;
-      const V r = earlier(xs[i] - xs[j], vs[i] - vs[j], p.verlet ? 0 : dt);
-      add(xs[i] - xs[j], vs[j] - vs[i], vs[i] - vs[j], volume);
+      const V r = earlier(xs[i] - xs[j], vs[i] - vs[j], dt);
+      add(r, vs[j] - vs[i], volume);
       for (int c = 0; c < S::size; ++c)
         smoothing.c[c] += 2 * p.stress_diffusion * p.h * soil_c() * volume *
                           (sigma[j].c[c] - sigma[i].c[c] - dot(g, r) * rest.c[c]) * -f(std::sqrt(dot(r, r)));
     }
     for (std::size_t b = 0; b < xb.size(); ++b)
       if (dot(xs[i] - xb[b], xs[i] - xb[b]) < 4 * p.h * p.h)
-        add(xs[i] - xb[b], wall_velocity(b) - vs[i], vs[i] - vb[b], volume_b[b]);
+        add(earlier(xs[i] - xb[b], vs[i] - vb[b], dt), wall_velocity(b) - vs[i], volume_b[b]);
     if (p.corrected_strain_rate) correct_gradient(l, moment);
     const SoilMaterial<double> m(p.young_modulus, p.poisson_ratio, p.friction, p.cohesion, p.dilatancy,
                                  Cone::plane_strain);
