@@ -31,7 +31,7 @@ study_runs := $(call listed_runs,study.txt,full)
 
 # What the tools write of a run of a case.
 case_has = $(shell grep -q '^$(2) *:' $(validation)/$(1)/case.yaml && echo $(2))
-find_tables = run.json $(if $(call case_has,$(1),gauges),gauges.csv) $(if $(call case_has,$(1),slide),slide.csv)
+find_tables = run.json $(if $(call case_has,$(1),gauges),gauges.csv) $(if $(call soil_slide,$(validation)/$(1)/case.yaml),slide.csv)
 $(foreach case,$(validation_cases),$(eval case_tables_$(case) := $(call find_tables,$(case))))
 # Of all runs of case $(1) in the list $(2), below the folder $(3).
 case_results = $(foreach run,$(filter $(1)/%,$(2)),$(addprefix $(3)/$(run)/,$(case_tables_$(1))))
