@@ -25,6 +25,18 @@ TEST(Series, ExtremesOfACoarselySampledWaveAreItsOwn) {
   EXPECT_TRUE(std::isnan(extreme({}, true).value));
 }
 
+TEST(Series, MedianTakesOutSplashAndLeavesTheWave) {
+  Series s;
+  for (int k = 0; k <= 200; ++k) {
+    s.time.push_back(0.01 * k);
+    s.value.push_back(0.1 * std::sin(M_PI * s.time.back()));  // crest at 0.5 s
+  }
+  s.value[30] = 0.7, s.value[32] = 0.5, s.value[120] = -0.6;
+  const Series smooth = running_median(s, 0.055);
+  EXPECT_NEAR(extreme(smooth, true).value, 0.1, 0.001);
+  EXPECT_NEAR(extreme(smooth, true).time, 0.5, 0.02);
+  EXPECT_NEAR(extreme(smooth, false).value, -0.1, 0.001);
+}
 TEST(Rows, ErrorsAndBarsInUnitsOrPercent) {
   Row row;
   row.case_name = "c", row.quantity = "q", row.measured = 1.03, row.reference = 1, row.error = 0.03;

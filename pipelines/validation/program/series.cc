@@ -24,6 +24,19 @@ Series between(const Series& s, double from, double to) {
   return part;
 }
 
+Series running_median(const Series& s, double window) {
+  Series out = s;
+  std::vector<double> near;
+  for (std::size_t k = 0; k < s.time.size(); ++k) {
+    near.clear();
+    for (std::size_t j = 0; j < s.time.size(); ++j)
+      if (std::abs(s.time[j] - s.time[k]) <= window / 2) near.push_back(s.value[j]);
+    std::nth_element(near.begin(), near.begin() + near.size() / 2, near.end());
+    out.value[k] = near[near.size() / 2];
+  }
+  return out;
+}
+
 Extreme extreme(const Series& s, bool highest) {
   if (s.value.empty()) return {missing, missing};
   const auto at =
@@ -60,12 +73,14 @@ namespace {
 
 /// The series of the run's gauge `gauge` and that of column `column` of `file` (multiplied by `scale`, time by
 /// `time_scale`), if the check names one; both between `from` and `to`, and after their lowest with `after: trough`.
+/// With `median` the run's is without what lasts less than half of so many seconds.
 struct Pair {
   Series measured, reference;
 };
 Pair gauge_pair(const Run& run, const Keys& keys) {
   const double from = keys.number("from", -last_time), to = keys.number("to", last_time);
   Pair p{between(gauge_series(run, keys.text("gauge")), from, to), {}};
+  if (keys.has("median")) p.measured = running_median(p.measured, keys.number("median"));
   if (keys.has("file")) {
     const CsvFile csv = keys.csv("file");
     Series s{csv.numbers(keys.text("time_column", "1")), csv.numbers(keys.text("column"))};

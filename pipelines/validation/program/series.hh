@@ -15,6 +15,10 @@ Series gauge_series(const Run& run, const std::string& gauge);
 /// The part of a series in a span of time, without what is not finite.
 Series between(const Series& s, double from, double to);
 
+/// Each value replaced by the median of those within half a `window` (s) of its time: splash that passes a gauge is
+/// gone, waves that last longer than the window stay.
+Series running_median(const Series& s, double window);
+
 /// Highest or lowest value and its time, by the parabola through it and its neighbours; NaN of nothing.
 Extreme extreme(const Series& s, bool highest);
 
