@@ -26,16 +26,15 @@ struct SoftRepulsion {
 
 /// Acceleration of a water particle by a soil particle, per unit of r_ws, Eq. (15) with (18). The soil particle
 /// receives -m_w/m_s times the same (Eq. (17) with its sign mended): momentum is exchanged exactly.
-template <class T, int D>
+template <class T>
 struct InterfacePair {
   T water_mass;
-  ArtificialViscosity<T, D> viscosity;
   SoftRepulsion<T> repulsion;
 
-  /// r = |r_ws|, f = W'/r, mu the viscous velocity of the pair, p/rho^2 of water and of the water image at the soil
-  /// particle.
-  LGIW_FN T operator()(T r, T r2, T f, T mu, T water_term, T image_term, T rho_mean) const {
-    return -water_mass * (water_term + image_term + viscosity(mu, rho_mean)) * f + repulsion(r, r2);
+  /// d = |r_ws|, f = W'/r, Pi of the artificial viscosity of the pair, p/rho^2 of water and of the water image at the
+  /// soil particle.
+  LGIW_FN T operator()(const Distance<T>& d, T f, T viscous, T water_term, T image_term) const {
+    return -water_mass * (water_term + image_term + viscous) * f + repulsion(d.r, d.square);
   }
 };
 

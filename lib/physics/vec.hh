@@ -42,6 +42,21 @@ template <class T>
 LGIW_FN T square_root(T x) {
   return std::sqrt(x);
 }
+/// A distance and its reciprocal, which is large but finite at distance 0.
+template <class T>
+struct Distance {
+  T square, r, inverse;
+  LGIW_FN explicit Distance(T square_) : square(square_) {
+#if defined(__CUDA_ARCH__)
+    inverse = rsqrt(square > T(1e-30) ? square : T(1e-30));  // the processor's own: one instruction gives both
+    r = square * inverse;
+#else
+    r = std::sqrt(square);
+    inverse = 1 / (r > T(1e-15) ? r : T(1e-15));
+#endif
+  }
+};
+
 template <class T>
 LGIW_FN T largest(T a, T b) {
   return a > b ? a : b;

@@ -67,21 +67,29 @@ struct ParticleShifting {
   }
 };
 
+/// What the artificial viscosity of a pair gives: mu_ij in m/s, also the velocity that limits the time step, and Pi_ij
+/// in m5/(kg s2), zero for receding particles.
+template <class T>
+struct Viscous {
+  T mu, pi;
+};
+
 /// Monaghan's artificial viscosity, Eq. (5).
 template <class T, int D>
 struct ArtificialViscosity {
-  T alpha_c;     // alpha times the sound speed, m/s
+  T alpha_c_h;   // alpha times sound speed times smoothing length, m2/s
   T h, epsilon;  // smoothing length, 0.01 h^2
   ArtificialViscosity() = default;
   ArtificialViscosity(double alpha, double sound_speed, double smoothing_length)
-      : alpha_c(T(alpha * sound_speed)),
+      : alpha_c_h(T(alpha * sound_speed * smoothing_length)),
         h(T(smoothing_length)),
         epsilon(T(0.01 * smoothing_length * smoothing_length)) {}
 
-  /// mu_ij in m/s: also the velocity that limits the time step.
-  LGIW_FN T mu(T vr, T r2) const { return h * vr / (r2 + epsilon); }
-  /// Pi_ij in m5/(kg s2); zero for receding particles.
-  LGIW_FN T operator()(T mu_ij, T rho_mean) const { return smallest(mu_ij, T(0)) * -alpha_c / rho_mean; }
+  /// mu_ij = h v.r / (r^2 + 0.01 h^2), Pi_ij = -alpha c min(mu_ij, 0) / rho_mean; one division for both.
+  LGIW_FN Viscous<T> operator()(T vr, T r2, T rho_mean) const {
+    const T both = 1 / ((r2 + epsilon) * rho_mean);
+    return {h * vr * (rho_mean * both), -alpha_c_h * smallest(vr, T(0)) * both};
+  }
 };
 
 /// v.r of a particle beside a wall particle, for the artificial viscosity: r from the wall particle, n the wall's

@@ -75,6 +75,9 @@ struct CudaBackend {
   static constexpr int steps_per_check = 16;
   static constexpr int block = 128;
 
+  /// Width of the cells: that of the kernel's support, so that 3 rows of 3 hold all neighbours.
+  static double cell_width(double h, int) { return 2 * h * (1 + 1e-6); }
+
   struct Memory {
     static void* take(std::size_t bytes) {
       void* data = nullptr;
@@ -114,10 +117,14 @@ struct CudaBackend {
     run_once<<<1, 1>>>(f);
     launched("bookkeeping");
   }
-  template <class T, class F>
-  void for_each_limits(int n, const F& f, Limits<T>* limits) {
-    if (n == 0) return;
-    run_limits<T><<<blocks(n), block>>>(n, f, limits);
+  template <class View, class F>
+  void for_each_near(const View& own, const F& f) {
+    for_each(own.n, f);
+  }
+  template <class T, class View, class F>
+  void for_each_near_limits(const View& own, const F& f, Limits<T>* limits) {
+    if (own.n == 0) return;
+    run_limits<T><<<blocks(own.n), block>>>(own.n, f, limits);
     launched("a pass");
   }
 
@@ -157,6 +164,7 @@ struct CudaBackend {
     if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&p, device) != cudaSuccess) return "CUDA";
     return std::string("CUDA, ") + p.name;
   }
+  std::string instructions() const { return ""; }
 
  private:
   Array<int> sorted_key_, identity_;

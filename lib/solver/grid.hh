@@ -1,5 +1,6 @@
-// The cell grid that finds neighbours. Cells are as wide as the kernel's support and numbered along x first, so that
-// the neighbours of a particle lie in 3 (2-D) or 9 (3-D) contiguous ranges of the particles of a phase, sorted by cell.
+// The cell grid that finds neighbours. Cells are numbered along x first: a row of them is a contiguous range of the
+// particles of a phase, sorted by cell. Where they are as wide as the kernel's support, the neighbours of a particle
+// lie in 3 (2-D) or 9 (3-D) rows of three.
 #pragma once
 
 #include "physics/vec.hh"

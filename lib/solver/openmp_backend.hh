@@ -1,6 +1,9 @@
 // Runs the passes with OpenMP on host memory.
 #pragma once
 
+#include <omp.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -9,12 +12,19 @@
 
 #include "solver/backend_array.hh"
 #include "solver/passes.hh"
+#include "solver/tiles.hh"
 
 namespace lgiw {
 
+/// Machine: machine.hh.
+template <class Machine>
 struct OpenMpBackend {
   static constexpr bool on_host = true;
   static constexpr int steps_per_check = 1;
+
+  /// Width of the cells, which are the tiles: about 16 particles in 3-D and 11 in 2-D. Wider ones have more candidates
+  /// per neighbour, narrower ones share a copy among fewer particles (docs/performance.md).
+  static double cell_width(double h, int dimension) { return (dimension == 2 ? 2.2 : 1.7) * h; }
 
   /// Aligned for vector loads.
   struct Memory {
@@ -46,18 +56,20 @@ struct OpenMpBackend {
   void single(const F& f) {
     f(0);
   }
-  /// Runs f and raises *limits to the largest that it returned.
-  template <class T, class F>
-  void for_each_limits(int n, const F& f, Limits<T>* limits) {
-    T acceleration2 = 0, mu = 0;
-#pragma omp parallel for schedule(dynamic, 128) reduction(max : acceleration2, mu)
-    for (int i = 0; i < n; ++i) {
-      const Limits<T> l = f(i);
-      acceleration2 = largest(acceleration2, l.acceleration2);
-      mu = largest(mu, l.mu);
-    }
-    limits->acceleration2 = largest(limits->acceleration2, acceleration2);
-    limits->mu = largest(limits->mu, mu);
+  /// Runs a pass that looks at neighbours for all particles of `own`.
+  template <class View, class F>
+  void for_each_near(const View& own, const F& f) {
+    over_tiles(own, f, [](F& pass, int i) { pass(i); });
+  }
+  /// The same, and raises *limits to the largest that f returned.
+  template <class T, class View, class F>
+  void for_each_near_limits(const View& own, const F& f, Limits<T>* limits) {
+    const auto raise = [](Limits<T>& to, const Limits<T>& l) {
+      to.acceleration2 = largest(to.acceleration2, l.acceleration2), to.mu = largest(to.mu, l.mu);
+    };
+    std::vector<Limits<T>> found(omp_get_max_threads());
+    over_tiles(own, f, [&](F& pass, int i) { raise(found[omp_get_thread_num()], pass(i)); });
+    for (const Limits<T>& l : found) raise(*limits, l);
   }
 
   /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c.
@@ -85,9 +97,42 @@ struct OpenMpBackend {
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < n; ++i) out[i] = in[o[i]];
   }
+  /// A thread takes a few hundred particles at a time, whole cells.
+  template <class View, class F, class Run>
+  void over_tiles(const View& own, const F& f, const Run& run) {
+    const int* start = own.start;
+    const int cells = f.grid.cells, active = start[cells], threads = omp_get_max_threads();
+    const int share = std::clamp(active / (16 * threads), 64, 512), shares = (active + share - 1) / share;
+    while (int(memory_.size()) < threads) memory_.emplace_back();
+#pragma omp parallel
+    {
+      F pass = f;
+      Neighbourhood<typename F::Types> near(pass, memory_[omp_get_thread_num()]);
+#pragma omp for schedule(dynamic, 1)
+      for (int s = 0; s < shares; ++s) {
+        const int end = std::min(active, (s + 1) * share);
+        int c = int(std::lower_bound(start, start + cells, s * share) - start);
+        for (; c < cells && start[c] < end; ++c) {
+          if (start[c] == start[c + 1]) continue;
+          near.look(own.x, start[c], start[c + 1]);
+          for (int i = start[c]; i < start[c + 1]; ++i) run(pass, i);
+        }
+      }
+      near.clear();
+#pragma omp for schedule(static)
+      for (int i = active; i < own.n; ++i) run(pass, i);  // those that have left the domain
+    }
+  }
   double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
   void wait() const {}
   std::string name() const { return "CPU"; }
+  std::string instructions() const {
+    return Machine::lanes == 16 ? "AVX-512 instructions"
+                                : (Machine::lanes == 8 ? "AVX2 instructions" : "baseline instructions");
+  }
+
+ private:
+  std::vector<TileMemory<Machine>> memory_;  // one a thread
 };
 
 }  // namespace lgiw

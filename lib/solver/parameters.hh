@@ -9,17 +9,21 @@
 #include "physics/soil.hh"
 #include "physics/water.hh"
 #include "solver/grid.hh"
+#include "solver/machine.hh"
 #include "solver/setup.hh"
 
 namespace lgiw {
 
-/// Chosen at compile time: P number type of positions in time, T of everything else, D the dimension, K the kernel.
-template <class P_, class T_, int D_, template <class, int> class K_>
+/// Chosen at compile time: P number type of positions in time, T of everything else, D the dimension, K the kernel, and
+/// for which machine.
+template <class P_, class T_, int D_, template <class, int> class K_, class Machine_>
 struct Traits {
   using P = P_;
   using T = T_;
   static constexpr int D = D_;
   static constexpr int S = StressSize<D_>::value;
+  using Machine = Machine_;
+  static constexpr bool tiles = Machine::tiles;
   using Kernel = K_<T_, D_>;
 };
 
@@ -49,7 +53,7 @@ struct Parameters {
   T artificial_stress, inverse_w_dp;               // epsilon / rho_s^2, 1 / W(dp)
   bool return_mapping, wall_viscosity, coulomb_walls, corrected_strain_rate;
   // Interface.
-  InterfacePair<T, D> interface;
+  InterfacePair<T> interface;
   T velocity_factor, mass_ratio;  // xi, m_w / m_s
   bool image_gravity;
   // Domain.
@@ -111,7 +115,6 @@ struct Parameters {
     corrected_strain_rate = p.corrected_strain_rate;
 
     interface.water_mass = water_mass;
-    interface.viscosity = water_viscosity;
     interface.repulsion = SoftRepulsion<T>(p.repulsion, c, p.dp, p.h);
     velocity_factor = T(p.velocity_factor);
     mass_ratio = with_soil ? T(p.water_density / p.soil_density) : T(0);
@@ -218,6 +221,17 @@ struct BodyView : WallView<Tr> {
   const T* own_normal[D] = {};
   const int* body = nullptr;
   int* key = nullptr;
+};
+
+/// Copies of the particles near a tile, with the fields that a pass reads of them (its reads()).
+template <class Tr, bool = Tr::tiles>
+struct Near {};
+template <class Tr>
+struct Near<Tr, true> {
+  WaterView<Tr> water;
+  SoilView<Tr> soil;
+  WallView<Tr> wall;
+  BodyView<Tr> bodies;
 };
 
 }  // namespace lgiw

@@ -207,9 +207,9 @@ class ParticleSimulation final : public Simulation {
         const double x = in.wall_x[3 * i + axis(k)];
         low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
       }
-    grid_ = Grid<T, D>(low, high, 2 * m.h * (1 + 1e-6));
+    grid_ = Grid<T, D>(low, high, Backend::cell_width(m.h, D));
     LGIW_VALIDATE(grid_.cells > 0, "the domain needs more than 2 000 000 000 cells",
-                  "cells are as wide as the kernel's support", "use a coarser particle spacing or a smaller window");
+                  "cells are as wide as a few particles", "use a coarser particle spacing or a smaller window");
     state_ = Array<StepState>(1);
     limits_ = Array<Limits<T>>(1);
     StepState st;
@@ -396,8 +396,9 @@ class ParticleSimulation final : public Simulation {
   std::string device() const override { return backend_.name(); }
   std::string description() const override {
     const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
-    return backend_.name() + ", " + number + " precision, " + std::to_string(D) + "-D, " +
-           (model_.cubic_kernel ? "cubic spline" : "Wendland C2");
+    const std::string instructions = backend_.instructions();
+    return backend_.name() + (instructions.empty() ? "" : ", " + instructions) + ", " + number + " precision, " +
+           std::to_string(D) + "-D, " + (model_.cubic_kernel ? "cubic spline" : "Wendland C2");
   }
   std::vector<std::string> left_out() const override;
 
@@ -586,37 +587,37 @@ class ParticleSimulation final : public Simulation {
     timed("sort", [&] { sort_phases(); });
   }
   void rates() {
-    if (n_soil_ && n_wall_) run<WallVelocities<Tr, false>>("images", n_wall_);
-    if (n_soil_ && n_bodies_) run<WallVelocities<Tr, true>>("images", n_bodies_);
+    if (n_soil_ && n_wall_) run<WallVelocities<Tr, false>>("images", wall_view());
+    if (n_soil_ && n_bodies_) run<WallVelocities<Tr, true>>("images", body_view());
     if (n_water_)
       timed("water rates", [&] {
         WaterRates<Tr> f;
         fill(f);
         f.failed = &state_.data()->failed_water;
-        backend_.for_each(n_water_, f);
+        backend_.for_each_near(f.water, f);
         water_.excess.swap(water_.excess_next);
       });
     if (n_soil_) {
-      run<SoilRates<Tr>>("soil rates", n_soil_);
+      run<SoilRates<Tr>>("soil rates", soil_view());
       for (int c = 0; c < S; ++c) soil_.stress[c].swap(soil_.stress_next[c]);
     }
   }
   /// Images and forces for the present positions, velocities, densities and stresses.
   void evaluate() {
-    if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr, false>>("images", n_wall_);
-    if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", n_bodies_);
-    if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", n_soil_);
-    if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", n_water_);
+    if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr, false>>("images", wall_view());
+    if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", body_view());
+    if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", soil_view());
+    if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", water_view());
     compute_forces();
   }
   void compute_forces() {
     backend_.single(ResetLimits<T>{limits_.data()});
-    if (n_water_) run_limits<WaterForces<Tr>>("water forces", n_water_);
+    if (n_water_) run_limits<WaterForces<Tr>>("water forces", water_view());
     if (n_soil_) {
       if (p_.coulomb_walls)
-        run_limits<SoilForces<Tr, true>>("soil forces", n_soil_);
+        run_limits<SoilForces<Tr, true>>("soil forces", soil_view());
       else
-        run_limits<SoilForces<Tr, false>>("soil forces", n_soil_);
+        run_limits<SoilForces<Tr, false>>("soil forces", soil_view());
     }
   }
   void finish(bool advance) { backend_.single(FinishStep<Tr>{p_, limits_.data(), state_.data(), advance}); }
@@ -696,13 +697,14 @@ class ParticleSimulation final : public Simulation {
     fill(f);
     return f;
   }
-  template <class F>
-  void run(const char* phase, int n) {
-    timed(phase, [&] { backend_.for_each(n, pass<F>()); });
+  /// A pass over neighbours, for all particles of `own`.
+  template <class F, class View>
+  void run(const char* phase, const View& own) {
+    timed(phase, [&] { backend_.for_each_near(own, pass<F>()); });
   }
-  template <class F>
-  void run_limits(const char* phase, int n) {
-    timed(phase, [&] { backend_.template for_each_limits<T>(n, pass<F>(), limits_.data()); });
+  template <class F, class View>
+  void run_limits(const char* phase, const View& own) {
+    timed(phase, [&] { backend_.template for_each_near_limits<T>(own, pass<F>(), limits_.data()); });
   }
   template <class F>
   void timed(const char* phase, F&& f) {

@@ -8,8 +8,8 @@
 
 namespace lgiw {
 
-// On the CPU a pair loop computes every candidate of a row, the kernel being zero outside its support, so that it
-// vectorises; on a device a far candidate is skipped at once.
+// On the CPU the particles near a tile are copied side by side (tiles.hh), and a pair loop computes all of them, the
+// kernel being zero outside its support, so that it vectorises; on a device a far candidate is skipped at once.
 #if defined(__CUDA_ARCH__)
 #define LGIW_PAIR_LOOP _Pragma("unroll 1")
 #define LGIW_ROW_LOOP _Pragma("unroll 1")
@@ -23,6 +23,7 @@ namespace lgiw {
 
 template <class Tr>
 struct Pass {
+  using Types = Tr;
   using T = typename Tr::T;
   using P = typename Tr::P;
   static constexpr int D = Tr::D, S = Tr::S;
@@ -33,13 +34,15 @@ struct Pass {
   SoilView<Tr> soil;
   WallView<Tr> wall;
   BodyView<Tr> bodies;
+  Near<Tr> copies;  // empty where a pass looks among all particles
   const StepState* state;
 
   template <class View>
-  LGIW_FN int cell_of(const View& view, int i) const {
-    Vec<T, D> x;
-    for (int k = 0; k < D; ++k) x.c[k] = view.x[k][i];
-    return grid.cell(x);
+  LGIW_FN int cell_of([[maybe_unused]] const View& view, [[maybe_unused]] int i) const {
+    if constexpr (Tr::tiles)
+      return 0;
+    else
+      return grid.cell(load(view.x, i));
   }
   static LGIW_FN V load(const T* const* a, int i) {
     V r;
@@ -65,22 +68,56 @@ struct Pass {
   static LGIW_FN void store_stress(T* const* a, int i, const Stress<T, D>& s) {
     for (int k = 0; k < S; ++k) a[k][i] = s.c[k];
   }
-  /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2. Those
-  /// beyond the kernel's support may come too, and x itself with r = 0: every pair law is zero for them.
+  /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2, and `view`
+  /// is what near_water() and the like return. Those beyond the kernel's support may come too, and x itself with r = 0:
+  /// every pair law is zero for them.
   template <class View, class F>
-  LGIW_FN void for_each_near(const View& view, int cell, const V& x, const F& f) const {
-    LGIW_ROW_LOOP
-    for (int k = 0; k < Grid<T, D>::rows; ++k) {
-      int begin, end;
-      grid.row(view.start, cell, k, begin, end);
+  LGIW_FN void for_each_near(const View& view, [[maybe_unused]] int cell, const V& x, const F& f) const {
+    if constexpr (Tr::tiles) {
       LGIW_PAIR_LOOP
-      for (int j = begin; j < end; ++j) {
+      for (int j = 0; j < view.n; ++j) {
         const V r = x - load(view.x, j);
-        const T r2 = dot(r, r);
-        LGIW_SKIP_FAR(r2, support2());
-        f(j, r, r2);
+        f(j, r, dot(r, r));
+      }
+    } else {
+      LGIW_ROW_LOOP
+      for (int k = 0; k < Grid<T, D>::rows; ++k) {
+        int begin, end;
+        grid.row(view.start, cell, k, begin, end);
+        LGIW_PAIR_LOOP
+        for (int j = begin; j < end; ++j) {
+          const V r = x - load(view.x, j);
+          const T r2 = dot(r, r);
+          LGIW_SKIP_FAR(r2, support2());
+          f(j, r, r2);
+        }
       }
     }
+  }
+  /// The particles of a phase among which a pass finds its neighbours: all of them, or copies of those near a tile.
+  LGIW_FN const WaterView<Tr>& near_water() const {
+    if constexpr (Tr::tiles)
+      return copies.water;
+    else
+      return water;
+  }
+  LGIW_FN const SoilView<Tr>& near_soil() const {
+    if constexpr (Tr::tiles)
+      return copies.soil;
+    else
+      return soil;
+  }
+  LGIW_FN const WallView<Tr>& near_wall() const {
+    if constexpr (Tr::tiles)
+      return copies.wall;
+    else
+      return wall;
+  }
+  LGIW_FN const BodyView<Tr>& near_bodies() const {
+    if constexpr (Tr::tiles)
+      return copies.bodies;
+    else
+      return bodies;
   }
 
   template <bool of_bodies>
@@ -325,15 +362,23 @@ struct WaterRates : Pass<Tr> {
   static constexpr int D = Tr::D;
   unsigned* failed;
 
+  template <class F>
+  void reads(F&& f) {
+    auto& near = this->copies;
+    f(near.water, near.water.v), f(near.wall, near.wall.weight), f(near.soil, near.soil.v);
+    f(near.bodies, near.bodies.weight, near.bodies.own_v);
+    if (this->parameters.density_diffusion) f(near.water, near.water.excess);
+  }
+
   template <bool diffusion>
   LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
-    const auto& w = this->water;
+    const auto& w = this->near_water();
     const auto& p = this->parameters;
-    const T e_i = w.excess[i], half = this->half_step();
+    const T e_i = this->water.excess[i], half = this->half_step();
     T rate = 0;
     this->for_each_near(w, cell, x, [&](int j, const V& now, T) {
       const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
-      const T f = p.kernel.gradient(square_root(dot(r, r)));
+      const T f = p.kernel.gradient(Distance<T>(dot(r, r)));
       if constexpr (diffusion) {
         const T e_j = w.excess[j];
         rate += p.continuity(r, v_ij, f, e_i, e_j, p.eos.rho0 + e_j);
@@ -351,7 +396,7 @@ struct WaterRates : Pass<Tr> {
     T rate = 0;
     this->for_each_near(b, cell, x, [&](int j, const V& now, T) {
       const V v_ib = B::relative(v, b, j), r = B::earlier(now, v_ib, half);
-      rate += b.weight[j] * p.continuity(r, v_ib, p.kernel.gradient(square_root(dot(r, r))));
+      rate += b.weight[j] * p.continuity(r, v_ib, p.kernel.gradient(Distance<T>(dot(r, r))));
     });
     return rate;
   }
@@ -367,15 +412,16 @@ struct WaterRates : Pass<Tr> {
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
     T at_walls = 0;
-    if (this->wall.n) at_walls += over_walls(this->wall, cell, x, v);
-    if (this->bodies.n) at_walls += over_walls(this->bodies, cell, x, v);
+    if (this->wall.n) at_walls += over_walls(this->near_wall(), cell, x, v);
+    if (this->bodies.n) at_walls += over_walls(this->near_bodies(), cell, x, v);
     rate += compression_by_walls(at_walls, w.excess[i]);
     if (this->soil.n) {
       const T half = this->half_step();
       T sum = 0;
-      this->for_each_near(this->soil, cell, x, [&](int j, const V& now, T) {
-        const V v_ws = v - B::load(this->soil.v, j), r = B::earlier(now, v_ws, half);
-        sum += p.continuity(r, v_ws, p.kernel.gradient(square_root(dot(r, r))));
+      const auto& s = this->near_soil();
+      this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
+        const V v_ws = v - B::load(s.v, j), r = B::earlier(now, v_ws, half);
+        sum += p.continuity(r, v_ws, p.kernel.gradient(Distance<T>(dot(r, r))));
       });
       rate += p.velocity_factor * sum;
     }
@@ -408,8 +454,13 @@ struct WallVelocities : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
+  template <class F>
+  void reads(F&& f) {
+    f(this->copies.soil, this->copies.soil.v);
+  }
+
   LGIW_FN void operator()(int i) const {
-    const auto& s = this->soil;
+    const auto& s = this->near_soil();
     const auto& b = B::template walls<of_bodies>();
     const int cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
@@ -440,15 +491,23 @@ struct SoilRates : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D, S = Tr::S;
 
+  template <class F>
+  void reads(F&& f) {
+    auto& near = this->copies;
+    f(near.soil, near.soil.v), f(near.wall, near.wall.weight, near.wall.v);
+    f(near.bodies, near.bodies.weight, near.bodies.v, near.bodies.own_v);
+    if (this->parameters.stress_diffusion > 0) f(near.soil, near.soil.stress);
+  }
+
   template <bool diffusion, bool corrected>
   LGIW_FN void over_soil(int cell, const V& x, const V& v, const Stress<T, D>& sigma, const Stress<T, D>& at_rest, T* l,
                          Stress<T, D>& smoothing, MomentMatrix<T, D>& moment) const {
-    const auto& s = this->soil;
+    const auto& s = this->near_soil();
     const auto& p = this->parameters;
     const T half = this->half_step();
     this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
       const V v_ji = B::load(s.v, j) - v, r = B::earlier(now, v_ji, -half);
-      const T f = p.kernel.gradient(square_root(dot(r, r)));
+      const T f = p.kernel.gradient(Distance<T>(dot(r, r)));
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
       if constexpr (corrected) moment.add(f, r);
@@ -465,7 +524,7 @@ struct SoilRates : Pass<Tr> {
     const T half = this->half_step();
     this->for_each_near(walls, cell, x, [&](int j, const V& now, T) {
       const V v_ji = B::load(walls.v, j) - v, r = B::earlier(now, B::relative(v, walls, j), half);
-      const T f = walls.weight[j] * this->parameters.kernel.gradient(square_root(dot(r, r)));
+      const T f = walls.weight[j] * this->parameters.kernel.gradient(Distance<T>(dot(r, r)));
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
       if constexpr (corrected) moment.add(f, r);
@@ -482,8 +541,8 @@ struct SoilRates : Pass<Tr> {
                                  moment);
     else
       over_soil<false, corrected>(cell, x, v, sigma, p.static_stress_dry, l, smoothing, moment);
-    if (this->wall.n) over_walls<corrected>(this->wall, cell, x, v, l, moment);
-    if (this->bodies.n) over_walls<corrected>(this->bodies, cell, x, v, l, moment);
+    if (this->wall.n) over_walls<corrected>(this->near_wall(), cell, x, v, l, moment);
+    if (this->bodies.n) over_walls<corrected>(this->near_bodies(), cell, x, v, l, moment);
     for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
     if constexpr (corrected) {
       moment.scale(p.volume);
@@ -545,8 +604,13 @@ struct WaterImage : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
+  template <class F>
+  void reads(F&& f) {
+    f(this->copies.water, this->copies.water.excess, this->copies.water.term);
+  }
+
   LGIW_FN T pressure(int cell, const V& x, const V& g) const {
-    const auto& w = this->water;
+    const auto& w = this->near_water();
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
     V moment{};
@@ -570,6 +634,11 @@ struct WallImages : WaterImage<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D, S = Tr::S;
 
+  template <class F>
+  void reads(F&& f) {
+    WaterImage<Tr>::reads(f), f(this->copies.soil, this->copies.soil.stress);
+  }
+
   LGIW_FN void operator()(int i) const {
     const auto& p = this->parameters;
     const auto& b = B::template walls<of_bodies>();
@@ -592,7 +661,7 @@ struct WallImages : WaterImage<Tr> {
   /// the static increase takes over.
   LGIW_FN Stress<T, D> soil_stress(int i, int cell, const V& x) const {
     const auto& p = this->parameters;
-    const auto& s = this->soil;
+    const auto& s = this->near_soil();
     Stress<T, D> sum;
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
     T weight = 0;
@@ -657,6 +726,12 @@ struct WaterShift : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
+  template <class F>
+  void reads(F&& f) {
+    auto& near = this->copies;
+    f(near.water), f(near.soil), f(near.wall, near.wall.weight), f(near.bodies, near.bodies.weight);
+  }
+
   LGIW_FN void operator()(int i) const {
     const auto& w = this->water;
     V shift{};
@@ -667,16 +742,16 @@ struct WaterShift : Pass<Tr> {
       T divergence = 0;
       const auto of = [&](const auto& view, const auto& volume) {
         this->for_each_near(view, cell, x, [&](int j, const V& r, T r2) {
-          const T f = volume(j) * this->parameters.kernel.gradient(square_root(r2));
+          const T f = volume(j) * this->parameters.kernel.gradient(Distance<T>(r2));
           add_scaled(gradient, f, r);
           divergence -= f * r2;
         });
       };
       const T one = this->parameters.volume;
-      of(w, [&](int) { return one; });
-      if (this->soil.n) of(this->soil, [&](int) { return one; });
-      if (this->wall.n) of(this->wall, [&](int j) { return one * this->wall.weight[j]; });
-      if (this->bodies.n) of(this->bodies, [&](int j) { return one * this->bodies.weight[j]; });
+      of(this->near_water(), [&](int) { return one; });
+      if (this->soil.n) of(this->near_soil(), [&](int) { return one; });
+      if (this->wall.n) of(this->near_wall(), [&](int j) { return one * this->near_wall().weight[j]; });
+      if (this->bodies.n) of(this->near_bodies(), [&](int j) { return one * this->near_bodies().weight[j]; });
       shift = this->parameters.shifting(gradient, divergence, square_root(dot(v, v)));
     }
     B::store(w.shift, i, shift);
@@ -705,6 +780,16 @@ struct WaterForces : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D;
 
+  template <class F>
+  void reads(F&& f) {
+    auto& near = this->copies;
+    f(near.water, near.water.v, near.water.excess, near.water.term);
+    f(near.wall, near.wall.weight, near.wall.excess, near.wall.term);
+    f(near.bodies, near.bodies.weight, near.bodies.excess, near.bodies.term, near.bodies.own_v);
+    if (this->parameters.water_slips) f(near.wall, near.wall.normal), f(near.bodies, near.bodies.normal);
+    f(near.soil, near.soil.v, near.soil.image_excess, near.soil.image_term);
+  }
+
   template <bool slips, class Walls>
   LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
     const auto& p = this->parameters;
@@ -715,17 +800,16 @@ struct WaterForces : Pass<Tr> {
         vr = approach_to_wall(v_ib, r, B::load(b.normal, j), T(1));
       else
         vr = dot(v_ib, r);
-      const T mu = p.water_viscosity.mu(vr, r2);
-      const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
+      const T f = b.weight[j] * p.kernel.gradient(Distance<T>(r2));
       const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
-      const T push = push_of_wall(term_i, b.term[j]) + p.water_viscosity(mu, rho_mean);
+      const T push = push_of_wall(term_i, b.term[j]) + p.water_viscosity(vr, r2, rho_mean).pi;
       add_scaled(a, -push * f, r);
     });
   }
   template <bool slips>
   LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
-    if (this->wall.n) over_walls<slips>(this->wall, cell, x, v, term_i, rho_i, a);
-    if (this->bodies.n) over_walls<slips>(this->bodies, cell, x, v, term_i, rho_i, a);
+    if (this->wall.n) over_walls<slips>(this->near_wall(), cell, x, v, term_i, rho_i, a);
+    if (this->bodies.n) over_walls<slips>(this->near_bodies(), cell, x, v, term_i, rho_i, a);
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -737,12 +821,13 @@ struct WaterForces : Pass<Tr> {
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
     V a{};
     T mu_max = 0;
-    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
-      const V v_ij = v - B::load(w.v, j);
-      const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
-      const T f = p.kernel.gradient(square_root(r2));
-      mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-      add_scaled(a, -(term_i + w.term[j] + p.water_viscosity(mu, T(0.5) * (rho_i + rho0 + w.excess[j]))) * f, r);
+    const auto& near = this->near_water();
+    this->for_each_near(near, cell, x, [&](int j, const V& r, T r2) {
+      const V v_ij = v - B::load(near.v, j);
+      const auto viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + near.excess[j]));
+      const T f = p.kernel.gradient(Distance<T>(r2));
+      mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
+      add_scaled(a, -(term_i + near.term[j] + viscous.pi) * f, r);
     });
     if (p.water_slips)
       over_all_walls<true>(cell, x, v, term_i, rho_i, a);
@@ -750,14 +835,14 @@ struct WaterForces : Pass<Tr> {
       over_all_walls<false>(cell, x, v, term_i, rho_i, a);
     a = p.water_mass * a;
     if (this->soil.n) {
-      this->for_each_near(this->soil, cell, x, [&](int j, const V& r, T r2) {
-        const V v_ij = v - B::load(this->soil.v, j);
-        const T distance = square_root(r2);
-        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
+      const auto& s = this->near_soil();
+      this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+        const V v_ij = v - B::load(s.v, j);
+        const Distance<T> distance(r2);
+        const auto viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + s.image_excess[j]));
         const T f = p.kernel.gradient(distance);
-        mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-        const T rho_mean = T(0.5) * (rho_i + rho0 + this->soil.image_excess[j]);
-        add_scaled(a, p.interface(distance, r2, f, mu, term_i, this->soil.image_term[j], rho_mean), r);
+        mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
+        add_scaled(a, p.interface(distance, f, viscous.pi, term_i, s.image_term[j]), r);
       });
     }
     for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
@@ -775,28 +860,37 @@ struct SoilForces : Pass<Tr> {
   using V = typename B::V;
   static constexpr int D = Tr::D, S = Tr::S;
 
+  template <class F>
+  void reads(F&& f) {
+    auto& near = this->copies;
+    f(near.soil, near.soil.v, near.soil.stress, near.soil.artificial);
+    f(near.wall, near.wall.normal, near.wall.slip, near.wall.weight, near.wall.stress, near.wall.friction);
+    f(near.bodies, near.bodies.normal, near.bodies.slip, near.bodies.weight, near.bodies.stress, near.bodies.friction,
+      near.bodies.own_v);
+    f(near.water, near.water.v, near.water.excess, near.water.term);
+  }
+
   template <bool artificial>
   LGIW_FN void over_soil(int i, int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a, T& mu_max) const {
     const auto& p = this->parameters;
-    const auto& s = this->soil;
+    const auto& s = this->near_soil();
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
-    const Stress<T, D> own = artificial ? B::load_stress(s.artificial, i) : Stress<T, D>{};
+    const Stress<T, D> own = artificial ? B::load_stress(this->soil.artificial, i) : Stress<T, D>{};
     this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
       const V v_ij = v - B::load(s.v, j);
-      const T mu = p.soil_viscosity.mu(dot(v_ij, r), r2);
-      const T distance = square_root(r2);
+      const auto viscous = p.soil_viscosity(dot(v_ij, r), r2, p.soil_density);
+      const Distance<T> distance(r2);
       const T f = p.kernel.gradient(distance);
-      mu_max = largest(mu_max, f < 0 ? std::fabs(mu) : T(0));
-      const T viscous = p.soil_viscosity(mu, p.soil_density);
+      mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
       Stress<T, D> sum;
       for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
       if constexpr (artificial) {
-        const T ratio = p.kernel.value(distance) * p.inverse_w_dp;
+        const T ratio = p.kernel.value(distance.r) * p.inverse_w_dp;
         const T weight = std::pow(ratio, T(2.55));  // F^n, n = 2.55
         for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
       }
       add_scaled(a, f, apply(sum, r));
-      add_scaled(a, -f * viscous, r);
+      add_scaled(a, -f * viscous.pi, r);
     });
   }
 
@@ -814,22 +908,20 @@ struct SoilForces : Pass<Tr> {
     else
       over_soil<false>(i, cell, x, v, sigma, a, mu_max);
     WallForce walls{};
-    if (this->wall.n) of_walls(this->wall, cell, x, v, sigma, walls);
-    if (this->bodies.n) of_walls(this->bodies, cell, x, v, sigma, walls);
+    if (this->wall.n) of_walls(this->near_wall(), cell, x, v, sigma, walls);
+    if (this->bodies.n) of_walls(this->near_bodies(), cell, x, v, sigma, walls);
     add_scaled(a, T(1), walls.force);
     a = p.soil_mass * a;
     if (this->water.n) {
-      const auto& w = this->water;
+      const auto& w = this->near_water();
       const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
       V sum{};
       this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
         // the law is written for water minus soil: odd in r
         const V v_ij = v - B::load(w.v, j);
-        const T distance = square_root(r2);
-        const T mu = p.water_viscosity.mu(dot(v_ij, r), r2);
-        const T f = p.kernel.gradient(distance);
-        const T rho_mean = T(0.5) * (rho_image + rho0 + w.excess[j]);
-        add_scaled(sum, p.interface(distance, r2, f, mu, w.term[j], image_term, rho_mean), r);
+        const Distance<T> distance(r2);
+        const T viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_image + rho0 + w.excess[j])).pi;
+        add_scaled(sum, p.interface(distance, p.kernel.gradient(distance), viscous, w.term[j], image_term), r);
       });
       add_scaled(a, p.mass_ratio, sum);
     }
@@ -855,8 +947,8 @@ struct SoilForces : Pass<Tr> {
       const V n = B::load(b.normal, j), v_ib = B::relative(v, b, j);
       const T slip = b.slip[j];
       const T vr = approach_to_wall(v_ib, r, n, slip);
-      const T f = b.weight[j] * p.kernel.gradient(square_root(r2));
-      const T viscous = viscosity_on * p.soil_viscosity(p.soil_viscosity.mu(vr, r2), p.soil_density);
+      const T f = b.weight[j] * p.kernel.gradient(Distance<T>(r2));
+      const T viscous = viscosity_on * p.soil_viscosity(vr, r2, p.soil_density).pi;
       Stress<T, D> stress;
       for (int c = 0; c < S; ++c) stress.c[c] = (sigma.c[c] + b.stress[c][j]) * inverse_rho2;
       if constexpr (coulomb) {

@@ -1,6 +1,11 @@
 #include "solver/simulation.hh"
 
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.hh"
 #include "solver/cpu_simulation.hh"
@@ -8,32 +13,79 @@
 namespace lgiw {
 namespace {
 
-/// The pair loops are compiled for one instruction set; say so before the first of them meets an older processor.
-void check_processor() {
+constexpr int built_lanes[] = {LGIW_CPU_LANES};
+
+struct InstructionSet {
+  const char* name;
+  int lanes;  // floats in a vector
+};
+constexpr InstructionSet instruction_sets[] = {{"baseline", 4}, {"avx2", 8}, {"avx512", 16}};
+
+bool built(int lanes) {
+  return std::find(std::begin(built_lanes), std::end(built_lanes), lanes) != std::end(built_lanes);
+}
+/// The processor has the instructions.
+bool able(int lanes) {
 #if defined(__x86_64__)
-  const std::string arch = LGIW_CPU_ARCH;
-  bool able = true;
-  if (arch == "x86-64-v3") able = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (arch == "x86-64-v4") able = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
-  if (!able)
-    throw BackendError("--backend cpu is not possible (this processor lacks the instructions of " + arch +
-                       ") configure the build with -DLGIW_CPU_ARCH=x86-64");
+  if (lanes == 16) return __builtin_cpu_supports("x86-64-v4");
+  if (lanes == 8) return __builtin_cpu_supports("x86-64-v3");
 #endif
+  return lanes == 4;
+}
+
+/// Lanes of the widest instructions that both the build and the processor have, or of those that the environment asks
+/// for.
+int lanes_to_use() {
+  const char* wish = std::getenv("LGIW_INSTRUCTIONS");
+  const std::string name = wish ? wish : "";
+  int widest = 0;
+  for (const InstructionSet& set : instruction_sets) {
+    if (name == set.name)
+      LGIW_VALIDATE(built(set.lanes) && able(set.lanes), "LGIW_INSTRUCTIONS=" + name + " is not possible",
+                    built(set.lanes) ? "this processor lacks them" : "this build lacks them",
+                    "leave it out for the widest possible");
+    if ((name.empty() && built(set.lanes) && able(set.lanes)) || name == set.name) widest = set.lanes;
+  }
+  LGIW_VALIDATE(name.empty() || widest, "LGIW_INSTRUCTIONS=" + name + " is unknown", "it is an environment variable",
+                "set it to baseline, avx2 or avx512, or leave it out");
+  if (!widest)
+    throw BackendError(
+        "--backend cpu is not possible (this processor lacks the instructions that the build was made for) build "
+        "with -DLGIW_CPU_LANES=4");
+  return widest;
+}
+
+template <class P, class T, int D>
+std::unique_ptr<Simulation> make_with(const ModelParameters& p, const InitialParticles& particles, NumberType type) {
+  std::unique_ptr<Simulation> made;
+  const int lanes = lanes_to_use();
+  const auto make = [&]<int... each>(std::integer_sequence<int, each...>) {
+    ((lanes == each ? void(made = make_cpu<P, T, D, each>(p, particles, type)) : void()), ...);
+  };
+  make(std::integer_sequence<int, LGIW_CPU_LANES>{});
+  return made;
 }
 
 }  // namespace
 
+std::vector<std::string> cpu_instruction_sets() {
+  std::vector<std::string> out;
+  for (const InstructionSet& set : instruction_sets)
+    if (built(set.lanes) && able(set.lanes)) out.push_back(set.name);
+  return out;
+}
+
 std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles,
                                                 NumberType type) {
-  check_processor();
   const bool plane = p.dimension == 2;
   switch (type) {
     case NumberType::single_:
-      return plane ? make_cpu<float, float, 2>(p, particles, type) : make_cpu<float, float, 3>(p, particles, type);
+      return plane ? make_with<float, float, 2>(p, particles, type) : make_with<float, float, 3>(p, particles, type);
     case NumberType::double_:
-      return plane ? make_cpu<double, double, 2>(p, particles, type) : make_cpu<double, double, 3>(p, particles, type);
+      return plane ? make_with<double, double, 2>(p, particles, type)
+                   : make_with<double, double, 3>(p, particles, type);
     default:
-      return plane ? make_cpu<double, float, 2>(p, particles, type) : make_cpu<double, float, 3>(p, particles, type);
+      return plane ? make_with<double, float, 2>(p, particles, type) : make_with<double, float, 3>(p, particles, type);
   }
 }
 

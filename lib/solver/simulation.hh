@@ -86,8 +86,11 @@ class Simulation {
   virtual std::vector<std::string> left_out() const = 0;
 };
 
+/// With the widest instructions of the processor, or those that the environment variable LGIW_INSTRUCTIONS names.
 std::unique_ptr<Simulation> make_cpu_simulation(const ModelParameters& p, const InitialParticles& particles,
                                                 NumberType type);
+/// Names of the instruction sets that both the build and the processor have, for LGIW_INSTRUCTIONS.
+std::vector<std::string> cpu_instruction_sets();
 /// Throws BackendError when there is no CUDA device (or no driver, or no CUDA in this build).
 std::unique_ptr<Simulation> make_cuda_simulation(const ModelParameters& p, const InitialParticles& particles,
                                                  NumberType type);

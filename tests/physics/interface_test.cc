@@ -22,10 +22,9 @@ TEST(SoftRepulsion, FollowsTheFormula) {
   EXPECT_EQ((SoftRepulsion<double>(false, c, dp, h)(0.001, 1e-6)), 0);
 }
 TEST(InterfacePair, PressurePushesApart) {
-  const InterfacePair<double, 2> law{2.0, ArtificialViscosity<double, 2>(0.05, 20, 0.0075),
-                                     SoftRepulsion<double>(false, 20, 0.005, 0.0075)};
+  const InterfacePair<double> law{2.0, SoftRepulsion<double>(false, 20, 0.005, 0.0075)};
   // a_w = -m_w (p_w/rho_w^2 + p_s/rho_s^2) F r, F < 0
-  EXPECT_NEAR(law(0.005, 2.5e-5, -3.0, 0.1, 0.4, 0.6, 1000), 2.0 * (0.4 + 0.6) * 3.0, 1e-12);
+  EXPECT_NEAR(law(Distance<double>(2.5e-5), -3.0, 0.1, 0.4, 0.6), 2.0 * (0.4 + 0.6 + 0.1) * 3.0, 1e-12);
 }
 
 }  // namespace

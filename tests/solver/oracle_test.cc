@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <complex>
+#include <cstdlib>
 
+#include "base/error.hh"
 #include "cloud.hh"
 #include "physics/gradient_correction.hh"
 #include "physics/interface.hh"
@@ -352,8 +354,19 @@ double size(const V& v) {
   return std::sqrt(dot(v, v));
 }
 
+/// Runs f with each of the instruction sets that the processor has.
+template <class F>
+void with_all_instructions(F&& f) {
+  for (const std::string& name : cpu_instruction_sets()) {
+    SCOPED_TRACE(name);
+    ::setenv("LGIW_INSTRUCTIONS", name.c_str(), 1);
+    f();
+  }
+  ::unsetenv("LGIW_INSTRUCTIONS");
+}
+
 template <int D>
-void compare_forces(const Options& o) {
+void compare_forces_once(const Options& o) {
   const Cloud c = cloud(o);
   const Oracle<D> oracle(c);
   const auto simulation = make_cpu_simulation(c.p, c.in, NumberType::double_);
@@ -373,6 +386,10 @@ void compare_forces(const Options& o) {
       EXPECT_NEAR(soil[3 * i + Oracle<D>::axis(k)], expected[k], 1e-9 * scale) << "soil " << i;
   }
 }
+template <int D>
+void compare_forces(const Options& o) {
+  with_all_instructions([&] { compare_forces_once<D>(o); });
+}
 TEST(Oracle, Forces2D) { compare_forces<2>({}); }
 TEST(Oracle, Forces3D) { compare_forces<3>({3}); }
 TEST(Oracle, ForcesBesideAMovingBody2D) { compare_forces<2>({2, true, false, false, true, true, true}); }
@@ -385,7 +402,7 @@ TEST(Oracle, ForcesOfThePaper3D) { compare_forces<3>({3, true, true, true}); }
 /// One step: positions and velocities move by the oracle's forces, then densities and stresses by the oracle's rates
 /// there.
 template <int D>
-void compare_step(Options o) {
+void compare_step_once(const Options& o) {
   Cloud c = cloud(o);
   const auto simulation = make_cpu_simulation(c.p, c.in, NumberType::double_);
   const double dt = simulation->state().dt;
@@ -424,6 +441,10 @@ void compare_step(Options o) {
   }
   EXPECT_GT(plastic, 0);  // or the test would not see the return mapping
   EXPECT_LT(plastic, int(oracle.xs.size()));
+}
+template <int D>
+void compare_step(const Options& o) {
+  with_all_instructions([&] { compare_step_once<D>(o); });
 }
 TEST(Oracle, Step2D) { compare_step<2>({}); }
 TEST(Oracle, Step3D) { compare_step<3>({3}); }
@@ -528,8 +549,8 @@ TEST(Rates, ADropThatTurnsInTheAirKeepsItsDensity) {
   }
 }
 
-TEST(NumberTypes, AgreeWithDoubleOverAHundredSteps) {
-  const Cloud c = cloud({3});
+void compare_number_types(const Options& o) {
+  const Cloud c = cloud(o);
   std::vector<ParticleState> s(3);
   for (int t = 0; t < 3; ++t) {
     const auto simulation = make_cpu_simulation(c.p, c.in, NumberType(t));
@@ -538,6 +559,35 @@ TEST(NumberTypes, AgreeWithDoubleOverAHundredSteps) {
   }
   for (int t : {0, 1})
     for (std::size_t i = 0; i < s[2].water_x.size(); ++i) EXPECT_NEAR(s[t].water_x[i], s[2].water_x[i], 2e-4 * c.p.dp);
+}
+TEST(NumberTypes, AgreeWithDoubleOverAHundredSteps) {
+  with_all_instructions([] { compare_number_types({3}); });
+  with_all_instructions([] { compare_number_types({2}); });
+}
+/// Float forces of the packed neighbours against the doubles of the oracle: a lane that is lost or doubled is a whole
+/// pair, rounding is not.
+TEST(NumberTypes, SinglePrecisionForcesAreThoseOfTheOracleToRounding) {
+  for (int dimension : {2, 3})
+    with_all_instructions([&] {
+      const Cloud c = cloud({dimension});
+      std::vector<double> exact_water, exact_soil, water, soil;
+      make_cpu_simulation(c.p, c.in, NumberType::double_)->download_accelerations(exact_water, exact_soil);
+      make_cpu_simulation(c.p, c.in, NumberType::mixed)->download_accelerations(water, soil);
+      const auto compare = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double scale = 0;
+        for (double x : b) scale = std::max(scale, std::fabs(x));
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 2e-5 * scale) << i;
+      };
+      compare(water, exact_water), compare(soil, exact_soil);
+    });
+}
+TEST(Instructions, ThatAreUnknownAreRefused) {
+  const Cloud c = cloud({2});
+  ::setenv("LGIW_INSTRUCTIONS", "sse9", 1);
+  EXPECT_THROW(make_cpu_simulation(c.p, c.in, NumberType::mixed), InputError);
+  ::unsetenv("LGIW_INSTRUCTIONS");
+  EXPECT_FALSE(cpu_instruction_sets().empty());
 }
 
 }  // namespace
