@@ -33,6 +33,7 @@ RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sou
 /// water; absent where there are fewer than in any measurement, or nothing to count.
 struct ErrorClass {
   std::optional<double> crest;     // of the wave's first crest, relative
+  std::optional<double> runout;    // of a slide without water, relative
   std::optional<double> pressure;  // RMS at rest, relative to rho g H
   std::string text;                // one line
 };

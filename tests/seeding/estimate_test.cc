@@ -55,6 +55,8 @@ TEST(Estimate, ErrorClassIsThatOfTheMeasurements) {
             "thickness); pressure not measured below 10 particles (here 8.5) (water depth)");
   EXPECT_EQ(expected_error({}, 40).text,
             "error to expect from what was measured: pressure within 0.42 % of rho g H (water depth)");
+  EXPECT_EQ(expected_error(45, {}).text,
+            "error to expect from what was measured: run-out within 1 % (slide thickness)");
   EXPECT_EQ(expected_error({}, {}).text, "error to expect from what was measured: nothing to go by");
 }
 

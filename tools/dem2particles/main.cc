@@ -135,9 +135,14 @@ std::string report_text(const ordered_json& j) {
                r["memory_bytes"].get<double>() / 1e6, r["time_step"].get<double>(), r["steps"].get<double>(),
                r["end_time"].get<double>(), format_duration(r["run_time_s"].get<double>()).c_str(),
                r["rate"].get<double>());
-  text += line("slide %.3g particles thick (median), water %.3g deep",
-               j["resolution"]["slide_thickness_particles"].get<double>(),
-               j["resolution"]["water_depth_particles"].get<double>());
+  const double thick = j["resolution"]["slide_thickness_particles"].get<double>();
+  const double deep = j["resolution"]["water_depth_particles"].get<double>();
+  if (thick > 0 && deep > 0)
+    text += line("slide %.3g particles thick (median), water %.3g deep", thick, deep);
+  else if (thick > 0)
+    text += line("slide %.3g particles thick (median)", thick);
+  else if (deep > 0)
+    text += line("water %.3g particles deep", deep);
   text += j["expected_error"].get<std::string>() + "\n";
   for (const auto& note : j["notes"]) text += note.get<std::string>() + "\n";
   return text;

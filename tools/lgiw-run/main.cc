@@ -145,6 +145,7 @@ int main(int argc, char** argv) {
   std::string cuda;
   add_common_options(app, o.common, std::string("CUDA backend: ") + (cuda_available(&cuda) ? "yes" : cuda));
   app.footer(
-      "Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv");
+      "Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv\n"
+      "On a CPU the widest vector instructions are used; LGIW_INSTRUCTIONS=baseline, avx2 or avx512 chooses others.");
   return tool_main(app, argc, argv, [&] { return run(o, argc, argv); });
 }
