@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -67,14 +68,18 @@ struct OpenMpBackend {
     const auto raise = [](Limits<T>& to, const Limits<T>& l) {
       to.acceleration2 = largest(to.acceleration2, l.acceleration2), to.mu = largest(to.mu, l.mu);
     };
-    std::vector<Limits<T>> found(omp_get_max_threads());
+    struct alignas(64) Found : Limits<T> {};  // a cache line a thread: they write all the time
+    std::vector<Found> found(omp_get_max_threads());
     over_tiles(own, f, [&](F& pass, int i) { raise(found[omp_get_thread_num()], pass(i)); });
-    for (const Limits<T>& l : found) raise(*limits, l);
+    for (const Found& l : found) raise(*limits, l);
   }
 
   /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c.
   void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
-    const int n = int(key.size());
+    const int n = int(key.size()), threads = omp_get_max_threads();
+    // A count of all cells a thread; not where the domain is so empty, or the scene so small, that these cost more.
+    if (threads > 1 && n > 20000 && int64_t(cells) * threads < 4 * int64_t(n))
+      return sort_by_cell_in_parallel(key.data(), n, cells, order.data(), start.data());
     int* s = start.data();
     std::memset(s, 0, start.size() * sizeof(int));
     for (int i = 0; i < n; ++i) ++s[key.data()[i]];
@@ -97,6 +102,43 @@ struct OpenMpBackend {
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < n; ++i) out[i] = in[o[i]];
   }
+  /// The same by several threads, and the same result: each counts and places a contiguous share of the particles.
+  void sort_by_cell_in_parallel(const int* key, int n, int cells, int* order, int* start) {
+    const int width = cells + 1;  // key `cells` counts too
+    std::vector<int> sums;
+#pragma omp parallel
+    {
+      const int threads = omp_get_num_threads(), me = omp_get_thread_num();
+      const auto share = [&](int of, int k) { return int(int64_t(of) * k / threads); };
+#pragma omp single
+      {
+        counts_.resize(std::size_t(threads) * width);
+        sums.assign(threads + 1, 0);
+      }
+      int* mine = counts_.data() + std::size_t(me) * width;
+      std::fill(mine, mine + width, 0);
+      for (int i = share(n, me); i < share(n, me + 1); ++i) ++mine[key[i]];
+#pragma omp barrier
+      const int first = share(width, me), last = share(width, me + 1);
+      int sum = 0;
+      for (int t = 0; t < threads; ++t)
+        for (int c = first; c < last; ++c) sum += counts_[std::size_t(t) * width + c];
+      sums[me + 1] = sum;
+#pragma omp barrier
+      int next = 0;
+      for (int t = 0; t <= me; ++t) next += sums[t];
+      for (int c = first; c < last; ++c) {
+        start[c] = next;
+        for (int t = 0; t < threads; ++t) {
+          int& count = counts_[std::size_t(t) * width + c];
+          const int here = count;
+          count = next, next += here;
+        }
+      }
+#pragma omp barrier
+      for (int i = share(n, me); i < share(n, me + 1); ++i) order[mine[key[i]]++] = i;
+    }
+  }
   /// A thread takes a few hundred particles at a time, whole cells.
   template <class View, class F, class Run>
   void over_tiles(const View& own, const F& f, const Run& run) {
@@ -108,7 +150,7 @@ struct OpenMpBackend {
     {
       F pass = f;
       Neighbourhood<typename F::Types> near(pass, memory_[omp_get_thread_num()]);
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(dynamic, 1) nowait
       for (int s = 0; s < shares; ++s) {
         const int end = std::min(active, (s + 1) * share);
         int c = int(std::lower_bound(start, start + cells, s * share) - start);
@@ -119,7 +161,7 @@ struct OpenMpBackend {
         }
       }
       near.clear();
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
       for (int i = active; i < own.n; ++i) run(pass, i);  // those that have left the domain
     }
   }
@@ -133,6 +175,7 @@ struct OpenMpBackend {
 
  private:
   std::vector<TileMemory<Machine>> memory_;  // one a thread
+  std::vector<int> counts_;                  // of the sort
 };
 
 }  // namespace lgiw
