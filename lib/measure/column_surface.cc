@@ -28,9 +28,45 @@ struct MeasuringKernel {
   double radius, alpha;
 };
 
-/// Columns of bins of edge h over the map and the kernel's reach around it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define LGIW_WIDEST_VECTORS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define LGIW_WIDEST_VECTORS
+#endif
+
+/// sum_j (1 - u)^4 (4 u + 1), u = |r - r_j| scale, over n particles.
+LGIW_WIDEST_VECTORS float kernel_sum(const float* x, const float* y, const float* z, std::size_t n, float px, float py,
+                                     float pz, float scale) {
+  float total = 0;
+#pragma omp simd reduction(+ : total)
+  for (std::size_t k = 0; k < n; ++k) {
+    const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
+    const float r = std::sqrt(dx * dx + dy * dy + dz * dz) * scale, u = r < 1.0f ? r : 1.0f;
+    const float t = (1 - u) * (1 - u);
+    total += t * t * (4 * u + 1);
+  }
+  return total;
+}
+
+/// sum_k of a table a line, at (bed[k] + offset) scale, held within [0, last] and linear between the entries; a bed of
+/// NaN counts as at 0.
+LGIW_WIDEST_VECTORS float table_sum(const float* bed, const int* table, const float* tables, std::size_t n,
+                                    float offset, float scale, int last) {
+  float total = 0;
+#pragma omp simd reduction(+ : total)
+  for (std::size_t k = 0; k < n; ++k) {
+    const float raw = (bed[k] + offset) * scale, above = raw > 0.0f ? raw : 0.0f;
+    const float u = above < float(last) ? above : float(last);
+    const int at = int(u), i = at < last ? at : last - 1;
+    const float low = tables[table[k] + i];
+    total += low + (u - float(i)) * (tables[table[k] + i + 1] - low);
+  }
+  return total;
+}
+
+/// Columns of bins over the map and the kernel's reach around it, wide enough that the sums over one are long.
 struct BinGrid {
-  BinGrid(const SurfaceMap& map, int dimension, double h) : edge(h) {
+  BinGrid(const SurfaceMap& map, int dimension, double h) : edge(2 * h) {
     x0 = map.x0 - 2 * h;
     nx = std::size_t(std::ceil((double(map.nx - 1) * map.dx + 4 * h) / edge)) + 1;
     if (dimension == 3) {
@@ -107,16 +143,8 @@ class PhaseBins {
 
   /// sum_j W(r - r_j) over the particles [begin, end).
   double sum(const MeasuringKernel& kernel, std::size_t begin, std::size_t end, double x, double y, double z) const {
-    const float px = float(x), py = float(y), pz = float(z), scale = float(1 / kernel.radius);
-    float total = 0;
-#pragma omp simd reduction(+ : total)
-    for (std::size_t k = begin; k < end; ++k) {
-      const float dx = x_[k] - px, dy = y_[k] - py, dz = z_[k] - pz;
-      const float u = std::min(1.0f, std::sqrt(dx * dx + dy * dy + dz * dz) * scale);
-      const float t = (1 - u) * (1 - u);
-      total += t * t * (4 * u + 1);
-    }
-    return kernel.alpha * total;
+    return kernel.alpha * kernel_sum(x_.data() + begin, y_.data() + begin, z_.data() + begin, end - begin, float(x),
+                                     float(y), float(z), float(1 / kernel.radius));
   }
 
   /// Largest speed at or below `top` within `reach` of (x, y) in x and in y.
@@ -193,33 +221,22 @@ class BedFraction {
           table_of[key] = int(tables_.size() / (intervals + 1));
           add_table(kernel, rho2);
         }
-        lines_.push_back({dx, dy, std::size_t(table_of[key]) * (intervals + 1)});
-        whole += tables_[lines_.back().table + intervals];
+        lines_.push_back({dx, dy});
+        table_.push_back(table_of[key] * (intervals + 1));
+        whole += tables_[std::size_t(table_.back()) + intervals];
       }
     for (float& value : tables_) value = float(value / whole);  // a point deep in the bed has fraction 1
   }
 
   struct Line {
     double dx, dy;
-    std::size_t table;
   };
   const std::vector<Line>& lines() const { return lines_; }
 
-  /// Fraction at height z where the bed under line k is at bed[k] (NaN: none).
-  double operator()(const std::vector<double>& bed, double z) const {
-    double total = 0;
-    for (std::size_t k = 0; k < lines_.size(); ++k) {
-      const double u = (bed[k] - z + radius_) * (intervals / (2 * radius_));
-      if (!(u > 0)) continue;
-      const float* table = &tables_[lines_[k].table];
-      if (u >= intervals) {
-        total += table[intervals];
-        continue;
-      }
-      const std::size_t i = std::size_t(u);
-      total += table[i] + (u - double(i)) * (table[i + 1] - table[i]);
-    }
-    return total;
+  /// Fraction at height z where the bed under line k is at origin + bed[k] (NaN: none).
+  double operator()(const std::vector<float>& bed, double origin, double z) const {
+    return table_sum(bed.data(), table_.data(), tables_.data(), bed.size(), float(origin - z + radius_),
+                     float(intervals / (2 * radius_)), intervals);
   }
 
  private:
@@ -239,6 +256,7 @@ class BedFraction {
 
   double radius_;
   std::vector<float> tables_;
+  std::vector<int> table_;  // where that of a line begins
   std::vector<Line> lines_;
 };
 
@@ -337,7 +355,7 @@ class Column {
     }
     if (bed_top_ > z - kernel_.radius) {
       if (bed_heights_.empty()) sample_bed();
-      f.bed = bed_fraction_(bed_heights_, z);
+      f.bed = bed_fraction_(bed_heights_, bed_top_, z);
     }
     return f;
   }
@@ -368,8 +386,8 @@ class Column {
 
   void sample_bed() {
     for (const BedFraction::Line& line : bed_fraction_.lines())
-      bed_heights_.push_back(
-          bed_.height(folded(x_ + line.dx, low_[0], high_[0]), folded(y_ + line.dy, low_[1], high_[1])));
+      bed_heights_.push_back(float(
+          bed_.height(folded(x_ + line.dx, low_[0], high_[0]), folded(y_ + line.dy, low_[1], high_[1])) - bed_top_));
   }
 
   MeasuringKernel kernel_;
@@ -379,7 +397,7 @@ class Column {
   const BedRange& bed_range_;
   const BedFraction& bed_fraction_;
   double x_ = 0, y_ = 0, bed_top_ = 0, floor_ = 0;
-  std::vector<double> bed_heights_;  // under the lines of the fraction; empty until they are wanted
+  std::vector<float> bed_heights_;  // under the lines of the fraction, from bed_top_; empty until they are wanted
   std::vector<Window> windows_;
 };
 
