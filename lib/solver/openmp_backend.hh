@@ -34,6 +34,7 @@ struct OpenMpBackend {
   };
   template <class T>
   using Array = BackendArray<T, Memory>;
+  using Tile = TileMemory<Array<unsigned char>>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {
@@ -93,15 +94,6 @@ struct OpenMpBackend {
     for (int c = cells; c > 0; --c) s[c] = s[c - 1];  // the fill moved each start to the next one's place
     s[0] = 0;
   }
-  template <class T>
-  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
-    const int n = int(from.size());
-    T* out = to.data();
-    const T* in = from.data();
-    const int* o = order.data();
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < n; ++i) out[i] = in[o[i]];
-  }
   /// The same by several threads, and the same result: each counts and places a contiguous share of the particles.
   void sort_by_cell_in_parallel(const int* key, int n, int cells, int* order, int* start) {
     const int width = cells + 1;  // key `cells` counts too
@@ -139,6 +131,15 @@ struct OpenMpBackend {
       for (int i = share(n, me); i < share(n, me + 1); ++i) order[mine[key[i]]++] = i;
     }
   }
+  template <class T>
+  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
+    const int n = int(from.size());
+    T* out = to.data();
+    const T* in = from.data();
+    const int* o = order.data();
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < n; ++i) out[i] = in[o[i]];
+  }
   /// A thread takes a few hundred particles at a time, whole cells.
   template <class View, class F, class Run>
   void over_tiles(const View& own, const F& f, const Run& run) {
@@ -149,7 +150,7 @@ struct OpenMpBackend {
 #pragma omp parallel
     {
       F pass = f;
-      Neighbourhood<typename F::Types> near(pass, memory_[omp_get_thread_num()]);
+      Neighbourhood<typename F::Types, Tile> near(pass, memory_[omp_get_thread_num()]);
 #pragma omp for schedule(dynamic, 1) nowait
       for (int s = 0; s < shares; ++s) {
         const int end = std::min(active, (s + 1) * share);
@@ -174,8 +175,8 @@ struct OpenMpBackend {
   }
 
  private:
-  std::vector<TileMemory<Machine>> memory_;  // one a thread
-  std::vector<int> counts_;                  // of the sort
+  std::vector<Tile> memory_;  // one a thread
+  std::vector<int> counts_;   // of the sort
 };
 
 }  // namespace lgiw

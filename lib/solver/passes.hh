@@ -69,8 +69,8 @@ struct Pass {
     for (int k = 0; k < S; ++k) a[k][i] = s.c[k];
   }
   /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2, and `view`
-  /// is what near_water() and the like return. Those beyond the kernel's support may come too, and x itself with r = 0:
-  /// every pair law is zero for them.
+  /// is one of nearby(). Those beyond the kernel's support may come too, and x itself with r = 0: every pair law is zero
+  /// for them.
   template <class View, class F>
   LGIW_FN void for_each_near(const View& view, [[maybe_unused]] int cell, const V& x, const F& f) const {
     if constexpr (Tr::tiles) {
@@ -94,30 +94,12 @@ struct Pass {
       }
     }
   }
-  /// The particles of a phase among which a pass finds its neighbours: all of them, or copies of those near a tile.
-  LGIW_FN const WaterView<Tr>& near_water() const {
+  /// The phases among which a pass finds its neighbours: whole, or copies of what is near a tile.
+  LGIW_FN const auto& nearby() const {
     if constexpr (Tr::tiles)
-      return copies.water;
+      return copies;
     else
-      return water;
-  }
-  LGIW_FN const SoilView<Tr>& near_soil() const {
-    if constexpr (Tr::tiles)
-      return copies.soil;
-    else
-      return soil;
-  }
-  LGIW_FN const WallView<Tr>& near_wall() const {
-    if constexpr (Tr::tiles)
-      return copies.wall;
-    else
-      return wall;
-  }
-  LGIW_FN const BodyView<Tr>& near_bodies() const {
-    if constexpr (Tr::tiles)
-      return copies.bodies;
-    else
-      return bodies;
+      return *this;
   }
 
   template <bool of_bodies>
@@ -372,7 +354,7 @@ struct WaterRates : Pass<Tr> {
 
   template <bool diffusion>
   LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
-    const auto& w = this->near_water();
+    const auto& w = this->nearby().water;
     const auto& p = this->parameters;
     const T e_i = this->water.excess[i], half = this->half_step();
     T rate = 0;
@@ -412,13 +394,13 @@ struct WaterRates : Pass<Tr> {
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
     T at_walls = 0;
-    if (this->wall.n) at_walls += over_walls(this->near_wall(), cell, x, v);
-    if (this->bodies.n) at_walls += over_walls(this->near_bodies(), cell, x, v);
+    if (this->wall.n) at_walls += over_walls(this->nearby().wall, cell, x, v);
+    if (this->bodies.n) at_walls += over_walls(this->nearby().bodies, cell, x, v);
     rate += compression_by_walls(at_walls, w.excess[i]);
     if (this->soil.n) {
       const T half = this->half_step();
       T sum = 0;
-      const auto& s = this->near_soil();
+      const auto& s = this->nearby().soil;
       this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
         const V v_ws = v - B::load(s.v, j), r = B::earlier(now, v_ws, half);
         sum += p.continuity(r, v_ws, p.kernel.gradient(Distance<T>(dot(r, r))));
@@ -460,7 +442,7 @@ struct WallVelocities : Pass<Tr> {
   }
 
   LGIW_FN void operator()(int i) const {
-    const auto& s = this->near_soil();
+    const auto& s = this->nearby().soil;
     const auto& b = B::template walls<of_bodies>();
     const int cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
@@ -502,7 +484,7 @@ struct SoilRates : Pass<Tr> {
   template <bool diffusion, bool corrected>
   LGIW_FN void over_soil(int cell, const V& x, const V& v, const Stress<T, D>& sigma, const Stress<T, D>& at_rest, T* l,
                          Stress<T, D>& smoothing, MomentMatrix<T, D>& moment) const {
-    const auto& s = this->near_soil();
+    const auto& s = this->nearby().soil;
     const auto& p = this->parameters;
     const T half = this->half_step();
     this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
@@ -541,8 +523,8 @@ struct SoilRates : Pass<Tr> {
                                  moment);
     else
       over_soil<false, corrected>(cell, x, v, sigma, p.static_stress_dry, l, smoothing, moment);
-    if (this->wall.n) over_walls<corrected>(this->near_wall(), cell, x, v, l, moment);
-    if (this->bodies.n) over_walls<corrected>(this->near_bodies(), cell, x, v, l, moment);
+    if (this->wall.n) over_walls<corrected>(this->nearby().wall, cell, x, v, l, moment);
+    if (this->bodies.n) over_walls<corrected>(this->nearby().bodies, cell, x, v, l, moment);
     for (int k = 0; k < D * D; ++k) l[k] *= p.volume;
     if constexpr (corrected) {
       moment.scale(p.volume);
@@ -610,7 +592,7 @@ struct WaterImage : Pass<Tr> {
   }
 
   LGIW_FN T pressure(int cell, const V& x, const V& g) const {
-    const auto& w = this->near_water();
+    const auto& w = this->nearby().water;
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
     V moment{};
@@ -661,7 +643,7 @@ struct WallImages : WaterImage<Tr> {
   /// the static increase takes over.
   LGIW_FN Stress<T, D> soil_stress(int i, int cell, const V& x) const {
     const auto& p = this->parameters;
-    const auto& s = this->near_soil();
+    const auto& s = this->nearby().soil;
     Stress<T, D> sum;
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
     T weight = 0;
@@ -748,10 +730,10 @@ struct WaterShift : Pass<Tr> {
         });
       };
       const T one = this->parameters.volume;
-      of(this->near_water(), [&](int) { return one; });
-      if (this->soil.n) of(this->near_soil(), [&](int) { return one; });
-      if (this->wall.n) of(this->near_wall(), [&](int j) { return one * this->near_wall().weight[j]; });
-      if (this->bodies.n) of(this->near_bodies(), [&](int j) { return one * this->near_bodies().weight[j]; });
+      of(this->nearby().water, [&](int) { return one; });
+      if (this->soil.n) of(this->nearby().soil, [&](int) { return one; });
+      if (this->wall.n) of(this->nearby().wall, [&](int j) { return one * this->nearby().wall.weight[j]; });
+      if (this->bodies.n) of(this->nearby().bodies, [&](int j) { return one * this->nearby().bodies.weight[j]; });
       shift = this->parameters.shifting(gradient, divergence, square_root(dot(v, v)));
     }
     B::store(w.shift, i, shift);
@@ -808,8 +790,8 @@ struct WaterForces : Pass<Tr> {
   }
   template <bool slips>
   LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
-    if (this->wall.n) over_walls<slips>(this->near_wall(), cell, x, v, term_i, rho_i, a);
-    if (this->bodies.n) over_walls<slips>(this->near_bodies(), cell, x, v, term_i, rho_i, a);
+    if (this->wall.n) over_walls<slips>(this->nearby().wall, cell, x, v, term_i, rho_i, a);
+    if (this->bodies.n) over_walls<slips>(this->nearby().bodies, cell, x, v, term_i, rho_i, a);
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -821,7 +803,7 @@ struct WaterForces : Pass<Tr> {
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
     V a{};
     T mu_max = 0;
-    const auto& near = this->near_water();
+    const auto& near = this->nearby().water;
     this->for_each_near(near, cell, x, [&](int j, const V& r, T r2) {
       const V v_ij = v - B::load(near.v, j);
       const auto viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + near.excess[j]));
@@ -835,7 +817,7 @@ struct WaterForces : Pass<Tr> {
       over_all_walls<false>(cell, x, v, term_i, rho_i, a);
     a = p.water_mass * a;
     if (this->soil.n) {
-      const auto& s = this->near_soil();
+      const auto& s = this->nearby().soil;
       this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
         const V v_ij = v - B::load(s.v, j);
         const Distance<T> distance(r2);
@@ -873,7 +855,7 @@ struct SoilForces : Pass<Tr> {
   template <bool artificial>
   LGIW_FN void over_soil(int i, int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a, T& mu_max) const {
     const auto& p = this->parameters;
-    const auto& s = this->near_soil();
+    const auto& s = this->nearby().soil;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const Stress<T, D> own = artificial ? B::load_stress(this->soil.artificial, i) : Stress<T, D>{};
     this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
@@ -908,12 +890,12 @@ struct SoilForces : Pass<Tr> {
     else
       over_soil<false>(i, cell, x, v, sigma, a, mu_max);
     WallForce walls{};
-    if (this->wall.n) of_walls(this->near_wall(), cell, x, v, sigma, walls);
-    if (this->bodies.n) of_walls(this->near_bodies(), cell, x, v, sigma, walls);
+    if (this->wall.n) of_walls(this->nearby().wall, cell, x, v, sigma, walls);
+    if (this->bodies.n) of_walls(this->nearby().bodies, cell, x, v, sigma, walls);
     add_scaled(a, T(1), walls.force);
     a = p.soil_mass * a;
     if (this->water.n) {
-      const auto& w = this->near_water();
+      const auto& w = this->nearby().water;
       const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
       V sum{};
       this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {

@@ -21,38 +21,33 @@ struct InstructionSet {
 };
 constexpr InstructionSet instruction_sets[] = {{"baseline", 4}, {"avx2", 8}, {"avx512", 16}};
 
-bool built(int lanes) {
-  return std::find(std::begin(built_lanes), std::end(built_lanes), lanes) != std::end(built_lanes);
-}
-/// The processor has the instructions.
-bool able(int lanes) {
+/// Both the build and the processor have the instructions.
+bool possible(int lanes) {
+  bool able = lanes == 4;
 #if defined(__x86_64__)
-  if (lanes == 16) return __builtin_cpu_supports("x86-64-v4");
-  if (lanes == 8) return __builtin_cpu_supports("x86-64-v3");
+  if (lanes == 16) able = __builtin_cpu_supports("x86-64-v4");
+  if (lanes == 8) able = __builtin_cpu_supports("x86-64-v3");
 #endif
-  return lanes == 4;
+  return able && std::find(std::begin(built_lanes), std::end(built_lanes), lanes) != std::end(built_lanes);
 }
 
-/// Lanes of the widest instructions that both the build and the processor have, or of those that the environment asks
-/// for.
+/// Lanes of the widest possible instructions, or of those that the environment asks for.
 int lanes_to_use() {
   const char* wish = std::getenv("LGIW_INSTRUCTIONS");
   const std::string name = wish ? wish : "";
-  int widest = 0;
-  for (const InstructionSet& set : instruction_sets) {
-    if (name == set.name)
-      LGIW_VALIDATE(built(set.lanes) && able(set.lanes), "LGIW_INSTRUCTIONS=" + name + " is not possible",
-                    built(set.lanes) ? "this processor lacks them" : "this build lacks them",
-                    "leave it out for the widest possible");
-    if ((name.empty() && built(set.lanes) && able(set.lanes)) || name == set.name) widest = set.lanes;
-  }
-  LGIW_VALIDATE(name.empty() || widest, "LGIW_INSTRUCTIONS=" + name + " is unknown", "it is an environment variable",
-                "set it to baseline, avx2 or avx512, or leave it out");
-  if (!widest)
+  int lanes = 0;
+  for (const InstructionSet& set : instruction_sets)
+    if (possible(set.lanes) && (name.empty() || name == set.name)) lanes = set.lanes;
+  if (lanes > 0) return lanes;
+  std::string names;
+  for (const std::string& each : cpu_instruction_sets()) names += (names.empty() ? "" : " or ") + each;
+  if (names.empty())
     throw BackendError(
         "--backend cpu is not possible (this processor lacks the instructions that the build was made for) build "
         "with -DLGIW_CPU_LANES=4");
-  return widest;
+  throw InputError("LGIW_INSTRUCTIONS=" + name + " is not possible",
+                   "it is unknown, or this build or this processor lacks it",
+                   "set it to " + names + ", or leave it out for the widest");
 }
 
 template <class P, class T, int D>
@@ -71,7 +66,7 @@ std::unique_ptr<Simulation> make_with(const ModelParameters& p, const InitialPar
 std::vector<std::string> cpu_instruction_sets() {
   std::vector<std::string> out;
   for (const InstructionSet& set : instruction_sets)
-    if (built(set.lanes) && able(set.lanes)) out.push_back(set.name);
+    if (possible(set.lanes)) out.push_back(set.name);
   return out;
 }
 

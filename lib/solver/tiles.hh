@@ -5,8 +5,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
-#include <new>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -16,40 +16,24 @@
 
 namespace lgiw {
 
-/// Memory of one thread for the copies; grows to what the fullest tile needs. Machine: see machine.hh.
-template <class Machine>
-class TileMemory {
- public:
-  TileMemory() = default;
-  TileMemory(TileMemory&& other) noexcept
-      : rows(std::move(other.rows)), data_(std::exchange(other.data_, nullptr)), bytes_(other.bytes_) {}
-  TileMemory(const TileMemory&) = delete;
-  TileMemory& operator=(const TileMemory&) = delete;
-  TileMemory& operator=(TileMemory&&) = delete;
-  ~TileMemory() { ::operator delete(data_, std::align_val_t(64)); }
-  void* take(std::size_t bytes) {
-    if (bytes > bytes_) {
-      ::operator delete(data_, std::align_val_t(64));
-      data_ = nullptr, bytes_ = 0;
-      data_ = ::operator new(bytes + bytes / 2, std::align_val_t(64));
-      bytes_ = bytes + bytes / 2;
-    }
-    return data_;
-  }
+/// Memory of one thread for the copies. Bytes: the backend's array of unsigned char.
+template <class Bytes>
+struct TileMemory {
+  Bytes copies;                           // grows to what the fullest tile needs
   std::vector<std::pair<int, int>> rows;  // of cells, [first, last)
 
- private:
-  void* data_ = nullptr;
-  std::size_t bytes_ = 0;
+  void* take(std::size_t bytes) {
+    if (bytes > copies.size()) copies = Bytes(bytes + bytes / 2);
+    return copies.data();
+  }
 };
 
 /// What a pass finds near the tile it works on: fills its copies.
-template <class Tr>
+template <class Tr, class Memory>
 class Neighbourhood {
  public:
   using T = typename Tr::T;
   static constexpr int D = Tr::D;
-  using Memory = TileMemory<typename Tr::Machine>;
 
   template <class Pass>
   Neighbourhood(Pass& pass, Memory& memory)
