@@ -47,7 +47,7 @@ $(sensitivity)/%/overrides: $(sensitivity_plan)
 	@jq -r '.variants["$*"] | map("--set " + .) | join(" ")' $< > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
-$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(wildcard $(case_dir)/terrain/*) $(dem2particles)
+$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(dem2particles)
 	$(dem2particles) $(case) $$(cat $<) -o $@ -O -q
 
 $(sensitivity)/%/run.h5 $(sensitivity)/%/run.json: $(sensitivity)/%/particles.h5 $(lgiw_run)
