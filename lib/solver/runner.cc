@@ -26,6 +26,7 @@
 #include "solver/diagnostics.hh"
 #include "solver/error_budget.hh"
 #include "solver/make_setup.hh"
+#include "solver/neighbour_count.hh"
 #include "solver/water_pressure.hh"
 
 namespace lgiw {
@@ -104,7 +105,12 @@ SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
 class Runner {
  public:
   Runner(const Case& c, const ParticleData& data, const RunOptions& options)
-      : case_(c), header_(data.header), options_(options), model_(make_model(c, data)), map_(make_map(c, data.header)) {
+      : case_(c),
+        data_(data),
+        header_(data.header),
+        options_(options),
+        model_(make_model(c, data)),
+        map_(make_map(c, data.header)) {
     const double frames = c.output.frame_interval;
     surface_interval_ = c.output.surface_interval > 0 ? c.output.surface_interval : frames / 10;
     per_frame_ = std::max<int64_t>(1, std::llround(frames / surface_interval_));
@@ -130,6 +136,7 @@ class Runner {
 
   std::string run() {
     SignalGuard guard;
+    set_up_seconds_ = elapsed();
     start_ = Clock::now();
     if (options_.resume)
       resume();
@@ -363,6 +370,26 @@ class Runner {
     return f.sum > 0 ? std::hypot(f.net[0], f.net[1], f.net[2]) / f.sum : 0;
   }
 
+  /// Of the particles that are still there, all phases counted.
+  double neighbours_per_particle() const {
+    ParticleState s;
+    simulation_->download(s);
+    std::vector<double> xyz;
+    const auto append = [&xyz](const std::vector<double>& x, const std::vector<unsigned char>& lost) {
+      for (std::size_t i = 0; i < lost.size(); ++i)
+        if (!lost[i]) xyz.insert(xyz.end(), x.begin() + long(3 * i), x.begin() + long(3 * i + 3));
+    };
+    append(s.water_x, s.water_lost), append(s.soil_x, s.soil_lost);
+    const std::size_t moving = xyz.size() / 3;
+    xyz.insert(xyz.end(), data_.wall.points.begin(), data_.wall.points.end());
+    std::vector<double> body_x;
+    std::vector<unsigned> wall_id;
+    simulation_->download_bodies(body_x, wall_id);
+    for (std::size_t i = 0; i < wall_id.size(); ++i)
+      std::copy_n(body_x.begin() + long(3 * i), 3, xyz.begin() + long(3 * (moving + wall_id[i])));
+    return mean_neighbours(xyz, moving, 2 * model_.h);
+  }
+
   void accumulate(const ColumnSurfaces& s, double time, bool water, bool soil) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto raise = [&](const std::string& name, const std::vector<float>& values) {
@@ -421,6 +448,8 @@ class Runner {
 
   std::string finish() {
     writer_->write_maxima(maxima_);
+    // Of the run itself: what follows looks back at it.
+    const double wall_time = elapsed(), peak = peak_memory();
     const StepState st = simulation_->state();
     const ErrorBudget budget = error_budget(model_, header_, extremes_);
     log(text_of(budget));
@@ -445,6 +474,7 @@ class Runner {
     if (header_.counts.soil) j["max_soil_speed_m_s"] = extremes_["max_soil_speed"];
     j["model"] = simulation_->description();
     j["bytes"] = simulation_->bytes();
+    j["neighbours_per_particle"] = neighbours_per_particle();  // within the support of the kernel
     j["dimension"] = header_.dimension;
     j["particle_spacing_m"] = header_.dp;
     j["h_over_dp"] = case_.numerics.h_over_dp;
@@ -464,14 +494,15 @@ class Runner {
     j["warnings"] = warnings_;
     const nlohmann::ordered_json reproducible = j;
     // What differs from run to run: in the file only with provenance.
-    j["wall_time_s"] = elapsed();
+    j["wall_time_s"] = wall_time;
+    j["set_up_time_s"] = set_up_seconds_;
     j["particle_steps_per_s"] =
-        (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(elapsed(), 1e-9);
+        (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(wall_time, 1e-9);
     const double stepping = stepping_earlier_ + seconds_taken_;
     j["stepping_time_s"] = stepping;
     j["stepping_particle_steps_per_s"] =
         (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(stepping, 1e-9);
-    j["peak_memory_bytes"] = peak_memory();
+    j["peak_memory_bytes"] = peak;
     j["device"] = simulation_->device();
     j["threads"] = omp_get_max_threads();
     j["version"] = version_string();
@@ -497,6 +528,7 @@ class Runner {
   }
 
   const Case& case_;
+  const ParticleData& data_;
   ParticleHeader header_;
   RunOptions options_;
   ModelParameters model_;
@@ -513,7 +545,7 @@ class Runner {
   Resolution resolution_;
   std::vector<std::string> warnings_;
   double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
-         stepping_earlier_ = 0, diagnostics_seconds_ = 0;
+         stepping_earlier_ = 0, diagnostics_seconds_ = 0, set_up_seconds_ = 0;
   int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };

@@ -146,6 +146,10 @@ TEST_F(Run, SummaryHasWhatTheRunKnows) {
   EXPECT_EQ(s.at("device"), "CPU");
   EXPECT_FALSE(std::string(s.at("version")).empty());
   EXPECT_GT(s.at("peak_memory_bytes"), s.at("bytes"));
+  EXPECT_GT(s.at("set_up_time_s"), 0);
+  // 28 or so in a plane full of particles, pi 3^2, walls counted; fewer at the free surface.
+  EXPECT_GT(s.at("neighbours_per_particle"), 20);
+  EXPECT_LT(s.at("neighbours_per_particle"), 30);
   EXPECT_GT(s.at("stepping_time_s"), 0);
   EXPECT_LT(s.at("stepping_time_s"), s.at("wall_time_s"));
   EXPECT_GT(s.at("stepping_particle_steps_per_s"), s.at("particle_steps_per_s"));
@@ -185,7 +189,7 @@ TEST_F(Run, SummaryHasWhatTheRunKnows) {
   // In the file, without provenance, only what is the same in every run.
   const json kept = json::parse(run.summary());
   for (const char* name : {"wall_time_s", "particle_steps_per_s", "threads", "phase_seconds", "stepping_time_s",
-                           "peak_memory_bytes", "device", "version"})
+                           "set_up_time_s", "peak_memory_bytes", "device", "version"})
     EXPECT_FALSE(kept.contains(name)) << name;
   for (const auto& [name, value] : kept.items()) EXPECT_EQ(value, s.at(name)) << name;
 
