@@ -1,4 +1,5 @@
 # Summaries of lgiw-run, named scene.who.round.json -> one object a scene: the medians over the rounds.
+include "run-record";
 def median: sort | .[(length - 1) / 2 | floor];
 def path_parts: input_filename | split("/") | last | split(".");
 [inputs | . + {scene: path_parts[0], who: path_parts[1]}]
@@ -8,13 +9,16 @@ def path_parts: input_filename | split("/") | last | split(".");
     | {
         scene: $s.scene,
         particles: $s.particles,
-        steps: $s.steps,
-        device: $s.model,
-        threads: $s.threads,
+        steps: $s.steps
+      }
+      + ($s | machine)
+      + {
         rounds: ($this | length),
         particle_steps_per_s: ($this | map(.stepping_particle_steps_per_s) | median),
         lowest_and_highest: ($this | map(.stepping_particle_steps_per_s) | [min, max]),
+        neighbours_per_particle: $s.neighbours_per_particle,
         phase_shares: ($s.phase_seconds | (map(values) | add) as $sum | map_values(. / $sum)),
+        wall_time_shares: ($s | wall_time_shares),
         bytes_per_particle: ($s.bytes / ($s.particles | .water + .soil + .wall)),
         peak_memory_bytes: ($this | map(.peak_memory_bytes) | max),
         start_and_output_s: ($this | map(.wall_time_s - .stepping_time_s) | median)

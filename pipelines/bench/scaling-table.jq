@@ -1,0 +1,9 @@
+# scaling.json as tables.
+include "run-record";
+([["scene", "particles", "of them walls", "steps", "neighbours", "ns/particle-step", "peak bytes/particle"]]
+  + [.sizes[] | .scene as $scene | .runs[] | [$scene, .total, .particles.wall, .steps, (.neighbours_per_particle | round),
+     (.ns_per_particle_step | rounded(1)), (.peak_memory_bytes / .total | round)]] | table),
+(.sizes[] | "\(.scene): cost per particle-step differs by \(.spread * 100 | round) % between \(.runs[0].total) and \(.runs[-1].total) particles: \(if .within_bar then "within" else "MORE THAN" end) \(.bar * 100) %"),
+"",
+([["scene", "threads", "M particle-steps/s", "efficiency"]]
+  + [.threads[] | .scene as $scene | .runs[] | [$scene, .threads, (.particle_steps_per_s / 1e6 | rounded(2)), (.efficiency | rounded(2))]] | table)
