@@ -84,3 +84,16 @@ bench-bars: $(BARS:%=$(bars)/%.h5) $(lgiw_run)
 	done
 	@jq -s . $(BARS:%=$(bars)/%.record) > $(bench_out)/bars.json
 	@$(bench_jq) -r -f $(here)/bench/bars-table.jq $(bench_out)/bars.json | tee $(bench_out)/bars.txt
+
+# --- Kernels ---------------------------------------------------------------------------------------------------------
+# KERNELS=--benchmark_filter=sort runs some of them, and takes other options of Google Benchmark.
+.PHONY: bench-packages bench-kernels
+bench-packages:
+	@$(here)/install-deps --bench
+
+bench-kernels: $(if $(BIN),,bench-packages)
+	@mkdir -p $(bench_out)
+ifndef BIN
+	@cd $(root) && cmake --preset release >/dev/null && cmake --build $(build) --target lgiw-kernels
+endif
+	@$(bin)/lgiw-kernels --benchmark_out=$(bench_out)/kernels.json --benchmark_out_format=json $(KERNELS)
