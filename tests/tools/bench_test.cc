@@ -105,6 +105,26 @@ TEST_F(Bench, APartOfABarIsExtrapolatedAndSaysSo) {
   EXPECT_NE(table.out.find("5 min, EXTRAPOLATED"), std::string::npos) << table.out << table.err;
 }
 
+TEST_F(Bench, OnAGpuNeedsWhatWasPreparedAndADevice) {
+  const std::string script = LGIW_SOURCE_DIR "/pipelines/bench-gpu";
+  EXPECT_EQ(shop.run(script).status, 2);
+  EXPECT_EQ(shop.run(script + " run '" + (shop / "nowhere").string() + "'").status, 2);
+
+  if (shop.run("lgiw-run --version").out.find("CUDA backend: yes") != std::string::npos)
+    GTEST_SKIP() << "a CUDA device is at hand";
+  const std::string prepared =
+      "mkdir -p ready/particles && xz -1 -c '" LGIW_BIN_DIR
+      "/lgiw-run' > ready/lgiw-run.xz && "
+      "dem2particles '" LGIW_SOURCE_DIR
+      "/pipelines/validation/viroulet/case.yaml' -q -o small.h5 --set particle_spacing=0.02 && "
+      "mv small.h5 ready/particles/small-coupled-2d.h5 && xz ready/particles/small-coupled-2d.h5";
+  expect_quiet_success(shop.run(prepared), prepared);
+  const Outcome outcome = shop.run(script + " run '" + (shop / "ready").string() + "'");
+  EXPECT_EQ(outcome.status, 3) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.err.find("THERE IS NO CUDA DEVICE HERE"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(shop / "ready/results/gpu.json"));
+}
+
 // The numbers that huangtian/README.md promises: a spur of 115 m and trapezoidal section, 40 million m3, beside 175 m
 // of water.
 TEST_F(Bench, TheStandInForHuangtianHoldsTheSlideAndTheLakeOfItsReadme) {
