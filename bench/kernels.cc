@@ -89,7 +89,7 @@ void constitutive_law(benchmark::State& state) {
   constexpr int S = Stress<T, D>::size;
   std::vector<T> stress[S], next[S], l[D * D];
   for (int c = 0; c < S; ++c) {
-    stress[c] = c < D ? uniform(batch, -1000, -500, 1 + unsigned(c)) : uniform(batch, -450, 450, 1 + unsigned(c));
+    stress[c] = c < D ? uniform(batch, -1000, -500, 1 + unsigned(c)) : uniform(batch, -270, 270, 1 + unsigned(c));
     next[c].resize(batch);
   }
   for (int k = 0; k < D * D; ++k) l[k] = uniform(batch, -1, 1, 10 + unsigned(k));
