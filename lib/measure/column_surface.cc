@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hh"
 
@@ -466,21 +467,31 @@ class Column {
   std::vector<Window> windows_;
 };
 
-/// In dp: Newton's step from so near is exact within 1e-5 dp.
-constexpr double newton_reach = 3e-3;
+/// A height and what is filled there.
+struct Level {
+  double z = 0;
+  Column::Fractions f;
+};
 
-/// The crossing of 1/2 between `upper`, where less is filled, and `lower`, with the fractions `f` at `lower`, which
-/// become those at, or all but at, the crossing.
-double crossing(Column& column, double upper, double lower, double dp, Column::Fractions& f) {
-  double z = lower;
+/// The height at which 1/2 is filled, with the part that is of the own phase; less is filled at `upper`, not less at
+/// `lower`.
+std::pair<double, double> crossing(Column& column, Level upper, Level lower, double dp) {
   for (int k = 0;; ++k) {
-    const double excess = f.filled() - 0.5, next = z - excess / f.slope;
-    const bool inside = f.slope < 0 && next >= lower && next <= upper;
-    if (inside && std::abs(next - z) < newton_reach * dp) return next;
-    if (k == 40 || upper - lower < 1e-5 * dp) return z;
-    (excess < 0 ? upper : lower) = z;
-    z = inside ? next : (upper + lower) / 2;
-    f = column.at(z);
+    const double width = upper.z - lower.z, rise = upper.f.filled() - lower.f.filled(), chord = rise / width;
+    const double t = (0.5 - lower.f.filled()) / rise;
+    const auto alike = [&](double slope) { return slope < chord / 2 && slope > chord * 2; };
+    double z = lower.z + t * width;
+    const bool smooth = alike(upper.f.slope) && alike(lower.f.slope);
+    if (smooth)  // the cubic z(filled) with the values and slopes of both ends
+      z += t * (1 - t) * rise * ((1 - t) * (1 / lower.f.slope - 1 / chord) - t * (1 / upper.f.slope - 1 / chord));
+    // It is exact within 1e-5 dp between ends so near, and so is Newton's step below.
+    if ((smooth && width < 0.1 * dp) || width < 1e-5 * dp || k == 40)
+      return {z, lower.f.own + (z - lower.z) / width * (upper.f.own - lower.f.own)};
+    if (k % 3 == 2) z = (upper.z + lower.z) / 2;
+    const Level here{z, column.at(z)};
+    const double newton = (0.5 - here.f.filled()) / here.f.slope;
+    if (alike(here.f.slope) && std::abs(newton) < 3e-3 * dp) return {z + newton, here.f.own};
+    (here.f.filled() < 0.5 ? upper : lower) = here;
   }
 }
 
@@ -488,28 +499,38 @@ double crossing(Column& column, double upper, double lower, double dp, Column::F
 /// column's own phase; NaN where there is none.
 double highest_surface(Column& column, double dp) {
   if (column.empty()) return nan_value;
-  const double step = dp / 2;
-  // No surface lies a whole dp above all particles, where their part only falls with the height; should there be so
-  // much of the phase nevertheless, the search starts above it.
-  double z = column.next_particle(infinity) + dp;
-  Column::Fractions f = column.at(z);
-  while (f.filled() >= 0.5 && f.own > 0.25) f = column.at(z += step);
+  // Where the surface should be by the slope, and a little beyond, so that it lies between; dp/2 at most.
+  const auto step = [&](const Column::Fractions& f) {
+    return f.slope < 0 ? std::min(dp / 2, std::abs((f.filled() - 0.5) / f.slope) + dp / 20) : dp / 2;
+  };
+  double top = column.next_particle(infinity) + dp / 2;
+  Level upper{top, column.at(top)};
+  // Above all particles what is filled only falls with the height: either no surface lies higher, or one does at most.
+  while (upper.f.filled() >= 0.5 && upper.f.own > 0.25) {
+    const Level lower = upper;
+    upper.z += step(lower.f);
+    upper.f = column.at(upper.z);
+    if (upper.f.filled() >= 0.5) continue;
+    const auto [z, own] = crossing(column, upper, lower, dp);
+    if (own > 0.25) return z;
+    upper = lower;
+    break;
+  }
   // The bed's part only grows downwards, and where it is a quarter the phase cannot be more than half of 1/2.
-  while (z > column.floor() && f.bed < 0.25) {
-    double below = z - step;
-    if (f.own + f.other == 0 && f.bed == 0) {
-      below =
-          std::min(below, std::max({column.next_particle(z - column.reach()), column.bed_top(), column.floor()}) + dp);
-    } else if (f.filled() < 0.5 && f.slope < 0) {
-      below = std::max(below, z - std::max((f.filled() - 0.5) / f.slope, newton_reach * dp));
+  while (upper.z > column.floor() && upper.f.bed < 0.25) {
+    Level lower;
+    if (upper.f.own + upper.f.other == 0 && upper.f.bed == 0) {
+      lower.z = std::max({column.next_particle(upper.z - column.reach()), column.bed_top(), column.floor()}) + dp;
+      lower.z = std::min(lower.z, upper.z - dp / 2);
+    } else {
+      lower.z = upper.z - (upper.f.filled() < 0.5 ? step(upper.f) : dp / 2);
     }
-    const Column::Fractions f_below = column.at(below);
-    if (f.filled() < 0.5 && f_below.filled() >= 0.5) {
-      Column::Fractions here = f_below;
-      const double surface = crossing(column, z, below, dp, here);
-      if (here.own > 0.5 * here.filled()) return surface;
+    lower.f = column.at(lower.z);
+    if (upper.f.filled() < 0.5 && lower.f.filled() >= 0.5) {
+      const auto [z, own] = crossing(column, upper, lower, dp);
+      if (own > 0.25) return z;
     }
-    z = below, f = f_below;
+    upper = lower;
   }
   return nan_value;
 }
