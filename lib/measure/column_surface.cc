@@ -38,29 +38,43 @@ struct MeasuringKernel {
 
 constexpr int lanes = 16;  // floats in the widest vectors
 
-/// Sums of the kernel and of its derivative by z, each in parts that are added up at the end: to add them up after
-/// every few particles takes longer than the particles.
-struct KernelSums {
-  float value[lanes] = {}, slope[lanes] = {};
+/// Particles beside each other in memory, as seen from the vertical through (px, py).
+struct Run {
+  const float *x, *y, *z;
+  int n;
+  float px, py;
 };
 
-/// Adds w = (1 - u)^4 (4 u + 1) and a twentieth of dw/dz / scale^2 over n particles, u = |r - r_j| scale. What
-/// follows them in memory, up to a full vector, is read and counts nothing.
-LGIW_WIDEST_VECTORS void add_kernel_sums(const float* x, const float* y, const float* z, int n, float px, float py,
-                                         float pz, float scale, KernelSums& sums) {
-  KernelSums s = sums;
-  for (int begin = 0; begin < n; begin += lanes) {
-    const int left = n - begin;
+struct KernelSums {
+  float value = 0, slope = 0;
+};
+
+/// The sum of w = (1 - u)^4 (4 u + 1), u = |r - r_j| scale, over all particles of the runs as seen from height pz, and
+/// a twentieth of its derivative by pz over scale^2. What follows a run in memory, up to a full vector, is read and
+/// counts nothing.
+LGIW_WIDEST_VECTORS KernelSums kernel_sums(const Run* runs, std::size_t count, float pz, float scale) {
+  // In parts, since to add up the lanes takes longer than the particles of a run.
+  float value[lanes] = {}, slope[lanes] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Run& run = runs[i];
+    for (int begin = 0; begin < run.n; begin += lanes) {
+      const float *x = run.x + begin, *y = run.y + begin, *z = run.z + begin;
+      const float px = run.px, py = run.py;
+      const int left = run.n - begin;
 #pragma omp simd
-    for (int k = 0; k < lanes; ++k) {
-      const float dx = x[begin + k] - px, dy = y[begin + k] - py, dz = z[begin + k] - pz;
-      const float r = std::sqrt(dx * dx + dy * dy + dz * dz) * scale, u = (k < left) & (r < 1.0f) ? r : 1.0f;
-      const float t = (1 - u) * (1 - u) * (1 - u);
-      s.value[k] += t * (1 - u) * (4 * u + 1);
-      s.slope[k] += t * dz;
+      for (int k = 0; k < lanes; ++k) {
+        const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
+        const float r = std::sqrt(dx * dx + dy * dy + dz * dz) * scale, u = (k < left) & (r < 1.0f) ? r : 1.0f;
+        const float t = (1 - u) * (1 - u) * (1 - u);
+        value[k] += t * (1 - u) * (4 * u + 1);
+        slope[k] += t * dz;
+      }
     }
   }
-  sums = s;
+  float whole_value = 0, whole_slope = 0;
+#pragma omp simd reduction(+ : whole_value, whole_slope)
+  for (int k = 0; k < lanes; ++k) whole_value += value[k], whole_slope += slope[k];
+  return {whole_value, whole_slope};
 }
 
 /// sum_k of a table a line, at (bed[k] + offset) scale, held within [0, last] and linear between the entries; a bed of
@@ -168,11 +182,9 @@ class PhaseBins {
       }
   }
 
-  /// Adds those over the particles [begin, end).
-  void add_sums(std::size_t begin, std::size_t end, double x, double y, double z, double radius,
-                KernelSums& sums) const {
-    add_kernel_sums(x_.data() + begin, y_.data() + begin, z_.data() + begin, int(end - begin), float(x), float(y),
-                    float(z), float(1 / radius), sums);
+  /// The particles [begin, end) as seen from (x, y).
+  Run run(std::size_t begin, std::size_t end, double x, double y) const {
+    return {x_.data() + begin, y_.data() + begin, z_.data() + begin, int(end - begin), float(x), float(y)};
   }
 
   /// Largest speed at or below `top` within `reach` of (x, y) in x and in y.
@@ -395,10 +407,11 @@ class Column {
              const PhaseBins* other) {
     node_ = node;
     windows_.clear();
-    add_windows(x, y, own, true);
+    add_windows(x, y, own);
+    n_own_ = windows_.size();
     lowest_ = infinity;
     for (const Window& w : windows_) lowest_ = std::min(lowest_, own.z(w.end - 1));
-    if (other && !windows_.empty()) add_windows(x, y, *other, false);
+    if (other && !windows_.empty()) add_windows(x, y, *other);
   }
 
   /// Whether no particle of the own phase is near.
@@ -409,19 +422,11 @@ class Column {
   double bed_top() const { return bed_.top(node_) - radius_; }
 
   Fractions at(double z) {
-    Fractions f;
-    KernelSums own, other;
-    for (Window& w : windows_) {
-      w.slide(z, radius_);
-      if (w.first < w.last) w.bins->add_sums(w.first, w.last, w.x, w.y, z, radius_, w.own ? own : other);
-    }
-    float own_sum = 0, other_sum = 0, slope = 0;
-#pragma omp simd reduction(+ : own_sum, other_sum, slope)
-    for (int k = 0; k < lanes; ++k)
-      own_sum += own.value[k], other_sum += other.value[k], slope += own.slope[k] + other.slope[k];
+    const KernelSums own = sums(0, n_own_, z), other = sums(n_own_, windows_.size(), z);
     const BedFractions::Sample bed = bed_.at(node_, z);
-    f.own = weight_ * own_sum, f.other = weight_ * other_sum, f.bed = bed.fraction;
-    f.slope = 20 * weight_ / (radius_ * radius_) * slope + bed.slope;
+    Fractions f;
+    f.own = weight_ * own.value, f.other = weight_ * other.value, f.bed = bed.fraction;
+    f.slope = 20 * weight_ / (radius_ * radius_) * (own.slope + other.slope) + bed.slope;
     return f;
   }
 
@@ -439,7 +444,6 @@ class Column {
  private:
   struct Window {
     const PhaseBins* bins;
-    bool own;
     double x, y;
     std::size_t begin, end, first, last;  // the bin; in it, what lies within reach
 
@@ -452,11 +456,22 @@ class Column {
     }
   };
 
-  void add_windows(const std::vector<double>& x, const std::vector<double>& y, const PhaseBins& bins, bool own) {
+  KernelSums sums(std::size_t first, std::size_t last, double z) {
+    runs_.clear();
+    for (std::size_t k = first; k < last; ++k) {
+      Window& w = windows_[k];
+      w.slide(z, radius_);
+      if (w.first < w.last) runs_.push_back(w.bins->run(w.first, w.last, w.x, w.y));
+    }
+    if (runs_.empty()) return {};
+    return kernel_sums(runs_.data(), runs_.size(), float(z), float(1 / radius_));
+  }
+
+  void add_windows(const std::vector<double>& x, const std::vector<double>& y, const PhaseBins& bins) {
     for (double yi : y)
       for (double xi : x)
         bins.visit(xi, yi, radius_, [&](std::size_t begin, std::size_t end) {
-          windows_.push_back({&bins, own, xi, yi, begin, end, begin, begin});
+          windows_.push_back({&bins, xi, yi, begin, end, begin, begin});
         });
   }
 
@@ -464,7 +479,9 @@ class Column {
   BedFractions& bed_;
   std::size_t node_ = 0;
   double lowest_ = infinity;
-  std::vector<Window> windows_;
+  std::vector<Window> windows_;  // first those of the own phase
+  std::size_t n_own_ = 0;
+  std::vector<Run> runs_;
 };
 
 /// A height and what is filled there.
