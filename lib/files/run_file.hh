@@ -36,6 +36,8 @@ struct SurfaceMap {
   std::size_t nx = 0, ny = 0;
   double x0 = 0, y0 = 0, dx = 1;
   std::size_t size() const { return nx * ny; }
+  double x(std::size_t node) const { return x0 + double(node % nx) * dx; }
+  double y(std::size_t node) const { return y0 + double(node / nx) * dx; }
 };
 
 struct Frame {

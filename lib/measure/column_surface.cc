@@ -1,9 +1,11 @@
 #include "measure/column_surface.hh"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hh"
 
@@ -34,18 +36,45 @@ struct MeasuringKernel {
 #define LGIW_WIDEST_VECTORS
 #endif
 
-/// sum_j (1 - u)^4 (4 u + 1), u = |r - r_j| scale, over n particles.
-LGIW_WIDEST_VECTORS float kernel_sum(const float* x, const float* y, const float* z, std::size_t n, float px, float py,
-                                     float pz, float scale) {
-  float total = 0;
-#pragma omp simd reduction(+ : total)
-  for (std::size_t k = 0; k < n; ++k) {
-    const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
-    const float r = std::sqrt(dx * dx + dy * dy + dz * dz) * scale, u = r < 1.0f ? r : 1.0f;
-    const float t = (1 - u) * (1 - u);
-    total += t * t * (4 * u + 1);
+constexpr int lanes = 16;  // floats in the widest vectors
+
+/// Particles beside each other in memory, as seen from the vertical through (px, py).
+struct Run {
+  const float *x, *y, *z;
+  int n;
+  float px, py;
+};
+
+struct KernelSums {
+  float value = 0, slope = 0;
+};
+
+/// The sum of w = (1 - u)^4 (4 u + 1), u = |r - r_j| scale, over all particles of the runs as seen from height pz, and
+/// a twentieth of its derivative by pz over scale^2. What follows a run in memory, up to a full vector, is read and
+/// counts nothing.
+LGIW_WIDEST_VECTORS KernelSums kernel_sums(const Run* runs, std::size_t count, float pz, float scale) {
+  // In parts, since to add up the lanes takes longer than the particles of a run.
+  float value[lanes] = {}, slope[lanes] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Run& run = runs[i];
+    for (int begin = 0; begin < run.n; begin += lanes) {
+      const float *x = run.x + begin, *y = run.y + begin, *z = run.z + begin;
+      const float px = run.px, py = run.py;
+      const int left = run.n - begin;
+#pragma omp simd
+      for (int k = 0; k < lanes; ++k) {
+        const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
+        const float r = std::sqrt(dx * dx + dy * dy + dz * dz) * scale, u = (k < left) & (r < 1.0f) ? r : 1.0f;
+        const float t = (1 - u) * (1 - u) * (1 - u);
+        value[k] += t * (1 - u) * (4 * u + 1);
+        slope[k] += t * dz;
+      }
+    }
   }
-  return total;
+  float whole_value = 0, whole_slope = 0;
+#pragma omp simd reduction(+ : whole_value, whole_slope)
+  for (int k = 0; k < lanes; ++k) whole_value += value[k], whole_slope += slope[k];
+  return {whole_value, whole_slope};
 }
 
 /// sum_k of a table a line, at (bed[k] + offset) scale, held within [0, last] and linear between the entries; a bed of
@@ -62,6 +91,19 @@ LGIW_WIDEST_VECTORS float table_sum(const float* bed, const int* table, const fl
     total += low + (u - float(i)) * (tables[table[k] + i + 1] - low);
   }
   return total;
+}
+
+/// Largest of value[k] where |x - px| and |y - py| are at most `reach`; 0 without any.
+LGIW_WIDEST_VECTORS float largest_within(const float* x, const float* y, const float* value, std::size_t n, float px,
+                                         float py, float reach) {
+  float largest = 0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool within = (std::abs(x[k] - px) <= reach) & (std::abs(y[k] - py) <= reach);
+    const float here = within ? value[k] : 0.0f;
+    largest = here > largest ? here : largest;
+  }
+  return largest;
 }
 
 /// Columns of bins over the map and the kernel's reach around it, wide enough that the sums over one are long.
@@ -99,25 +141,24 @@ class PhaseBins {
     for (int64_t b : bin)
       if (b >= 0) ++start_[b + 1];
     for (std::size_t b = 0; b + 1 < start_.size(); ++b) start_[b + 1] += start_[b];
-    std::vector<std::size_t> order(start_.back()), next(start_.begin(), start_.end() - 1);
+    // Numbers that sort like the height, from the top, and then like the index, which leaves one order only.
+    std::vector<uint64_t> order(start_.back());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
     for (std::size_t k = 0; k < count; ++k)
-      if (bin[k] >= 0) order[next[bin[k]]++] = first + k;
+      if (bin[k] >= 0) order[next[bin[k]]++] = uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
 
-    x_.resize(order.size()), y_.resize(order.size()), z_.resize(order.size());
-    if (particles.velocity) speed_.resize(order.size());
+    for (auto* values : {&x_, &y_, &z_}) values->resize(order.size() + lanes);
+    if (particles.velocity) square_speed_.resize(order.size());
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t b = 0; b < start_.size() - 1; ++b) {
-      // The index as second key: equal heights keep one order, whatever sort does.
-      std::sort(order.begin() + start_[b], order.begin() + start_[b + 1], [&](std::size_t p, std::size_t q) {
-        const float zp = particles.xyz[3 * p + 2], zq = particles.xyz[3 * q + 2];
-        return zp != zq ? zp > zq : p < q;
-      });
+      std::sort(order.begin() + start_[b], order.begin() + start_[b + 1]);
       for (std::size_t k = start_[b]; k < start_[b + 1]; ++k) {
-        const float* r = particles.xyz + 3 * order[k];
+        const std::size_t p = first + uint32_t(order[k]);
+        const float* r = particles.xyz + 3 * p;
         x_[k] = r[0], y_[k] = grid.flat() ? 0 : r[1], z_[k] = r[2];
         if (!particles.velocity) continue;
-        const float* v = particles.velocity + 3 * order[k];
-        speed_[k] = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        const float* v = particles.velocity + 3 * p;
+        square_speed_[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
       }
     }
   }
@@ -141,29 +182,34 @@ class PhaseBins {
       }
   }
 
-  /// sum_j W(r - r_j) over the particles [begin, end).
-  double sum(const MeasuringKernel& kernel, std::size_t begin, std::size_t end, double x, double y, double z) const {
-    return kernel.alpha * kernel_sum(x_.data() + begin, y_.data() + begin, z_.data() + begin, end - begin, float(x),
-                                     float(y), float(z), float(1 / kernel.radius));
+  /// The particles [begin, end) as seen from (x, y).
+  Run run(std::size_t begin, std::size_t end, double x, double y) const {
+    return {x_.data() + begin, y_.data() + begin, z_.data() + begin, int(end - begin), float(x), float(y)};
   }
 
   /// Largest speed at or below `top` within `reach` of (x, y) in x and in y.
   float largest_speed(double x, double y, double reach, double top) const {
     float largest = 0;
     visit(x, y, reach, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        if (z_[k] <= top && std::abs(x_[k] - x) <= reach && (grid_.flat() || std::abs(y_[k] - y) <= reach))
-          largest = std::max(largest, speed_[k]);
+      while (begin < end && z_[begin] > top) ++begin;
+      largest = std::max(largest, largest_within(x_.data() + begin, y_.data() + begin, square_speed_.data() + begin,
+                                                 end - begin, float(x), grid_.flat() ? 0 : float(y), float(reach)));
     });
-    return largest;
+    return std::sqrt(largest);
   }
 
   double z(std::size_t k) const { return z_[k]; }
 
  private:
+  /// The larger the height, the smaller the number.
+  static uint32_t descending(float z) {
+    const uint32_t bits = std::bit_cast<uint32_t>(z + 0.0f);  // no -0
+    return bits >> 31 ? bits : ~bits & 0x7fffffffu;
+  }
+
   const BinGrid& grid_;
   std::vector<std::size_t> start_;
-  std::vector<float> x_, y_, z_, speed_;
+  std::vector<float> x_, y_, z_, square_speed_;
 };
 
 /// Coordinates of x and its mirror images in the walls from which particles between the walls are seen. A point on a
@@ -202,24 +248,69 @@ double folded(double x, double low, double high) {
   return x;
 }
 
-/// The fraction of the kernel that lies below the bed, by the midpoint rule over vertical lines through the kernel: for
-/// each line a table of the integral of W up to a height, by the height relative to the point.
-class BedFraction {
+/// The fraction of the kernel that lies below the bed, at every height above every node of a map. It is found by the
+/// midpoint rule over vertical lines through the kernel, each with a table of the integral of W up to a height. The bed
+/// stays while the particles move: the fractions above a node are computed where they are first wanted, and kept.
+class BedFractions {
  public:
-  BedFraction(int dimension, const MeasuringKernel& kernel) : radius_(kernel.radius) {
+  struct Sample {
+    double fraction = 0, slope = 0;  // derivative by z
+  };
+
+  BedFractions(const ColumnParticles& particles, const SurfaceMap& map, const HeightField& bed)
+      : kernel_(particles.dimension, particles.h),
+        spacing_(particles.h / 12),
+        low_(particles.wall_low),
+        high_(particles.wall_high),
+        map_(map),
+        bed_(bed),
+        profiles_(map.size()) {
+    if (particles.dimension == 2) low_[1] = -infinity, high_[1] = infinity;
+    make_lines(particles.dimension);
+    find_tops();
+  }
+
+  Sample at(std::size_t node, double z) {
+    Profile& profile = profiles_[node];
+    const double down = (profile.top - z) / spacing_;
+    if (!(down > 0)) return {};
+    if (profile.fraction.empty()) compute(node);
+    // A cubic through the four values around z.
+    const std::vector<float>& f = profile.fraction;
+    const std::size_t last = f.size() - 1, k = std::min(std::size_t(down), last), k1 = std::min(k + 1, last);
+    const double f0 = k ? f[k - 1] : 0, f1 = f[k], f2 = f[k1], f3 = f[std::min(k + 2, last)];
+    const double t = std::min(down - double(k), 1.0);
+    const double a = f2 - f0 / 3 - f1 / 2 - f3 / 6, b = (f0 + f2) / 2 - f1, c = (f1 - f2) / 2 + (f3 - f0) / 6;
+    return {((c * t + b) * t + a) * t + f1, -((3 * c * t + 2 * b) * t + a) / spacing_};
+  }
+
+  /// Above it nothing is below the bed; -infinity without a bed.
+  double top(std::size_t node) const { return profiles_[node].top; }
+
+ private:
+  static constexpr int intervals = 256;
+  struct Line {
+    double dx, dy;
+  };
+  struct Profile {
+    float top = -std::numeric_limits<float>::infinity();
+    std::vector<float> fraction;  // from the top down to 1/2, where all searches have ended
+  };
+
+  void make_lines(int dimension) {
     const int n = dimension == 2 ? 16 : 8;  // lines per radius
-    const double spacing = radius_ / n;
+    const double radius = kernel_.radius, spacing = radius / n;
     std::vector<int> table_of(2 * n * n + 1, -1);  // by (2i+1)^2 + (2j+1)^2 over four: lines alike share a table
     double whole = 0;
     for (int j = dimension == 2 ? 0 : -n; j < (dimension == 2 ? 1 : n); ++j)
       for (int i = -n; i < n; ++i) {
         const double dx = (i + 0.5) * spacing, dy = dimension == 2 ? 0 : (j + 0.5) * spacing;
         const double rho2 = dx * dx + dy * dy;
-        if (rho2 >= radius_ * radius_) continue;
+        if (rho2 >= radius * radius) continue;
         const int a = 2 * i + 1, b = dimension == 2 ? 0 : 2 * j + 1, key = (a * a + b * b) / 4;
         if (table_of[key] < 0) {
           table_of[key] = int(tables_.size() / (intervals + 1));
-          add_table(kernel, rho2);
+          add_table(rho2);
         }
         lines_.push_back({dx, dy});
         table_.push_back(table_of[key] * (intervals + 1));
@@ -228,268 +319,304 @@ class BedFraction {
     for (float& value : tables_) value = float(value / whole);  // a point deep in the bed has fraction 1
   }
 
-  struct Line {
-    double dx, dy;
-  };
-  const std::vector<Line>& lines() const { return lines_; }
-
-  /// Fraction at height z where the bed under line k is at origin + bed[k] (NaN: none).
-  double operator()(const std::vector<float>& bed, double origin, double z) const {
-    return table_sum(bed.data(), table_.data(), tables_.data(), bed.size(), float(origin - z + radius_),
-                     float(intervals / (2 * radius_)), intervals);
-  }
-
- private:
-  static constexpr int intervals = 256;
-
-  void add_table(const MeasuringKernel& kernel, double rho2) {
-    const double step = 2 * radius_ / intervals;
-    const auto w = [&](double s) { return kernel(std::sqrt(rho2 + s * s)); };
+  void add_table(double rho2) {
+    const double radius = kernel_.radius, step = 2 * radius / intervals;
+    const auto w = [&](double s) { return kernel_(std::sqrt(rho2 + s * s)); };
     double total = 0;
     tables_.push_back(0);
     for (int i = 0; i < intervals; ++i) {  // Simpson
-      const double s = -radius_ + i * step;
+      const double s = -radius + i * step;
       total += step / 6 * (w(s) + 4 * w(s + step / 2) + w(s + step));
       tables_.push_back(float(total));
     }
   }
 
-  double radius_;
+  /// From the highest bed of square tiles: most nodes lie so far above the bed that its heights need not be asked for.
+  void find_tops() {
+    if (bed_.empty()) return;
+    const double radius = kernel_.radius;
+    const std::size_t size = std::max<std::size_t>(1, std::size_t(radius / bed_.dx));
+    const std::size_t nx = (bed_.nx + size - 1) / size, ny = (bed_.ny + size - 1) / size;
+    std::vector<double> highest(nx * ny, -infinity);
+    for (std::size_t j = 0; j < bed_.ny; ++j)
+      for (std::size_t i = 0; i < bed_.nx; ++i) {
+        double& z = highest[(j / size) * nx + i / size];
+        if (bed_.at(i, j) > z) z = bed_.at(i, j);  // not where it is NaN
+      }
+    const auto tile = [&](double u, std::size_t n) { return std::size_t(std::clamp(u, 0.0, double(n - 1))) / size; };
+#pragma omp parallel for
+    for (std::size_t node = 0; node < profiles_.size(); ++node) {
+      const double x = map_.x(node), y = map_.y(node);
+      double top = -infinity;
+      for (std::size_t j = tile(std::floor((y - radius - bed_.y0) / bed_.dx), bed_.ny);
+           j <= tile(std::ceil((y + radius - bed_.y0) / bed_.dx), bed_.ny); ++j)
+        for (std::size_t i = tile(std::floor((x - radius - bed_.x0) / bed_.dx), bed_.nx);
+             i <= tile(std::ceil((x + radius - bed_.x0) / bed_.dx), bed_.nx); ++i)
+          top = std::max(top, highest[j * nx + i]);
+      profiles_[node].top = float(top + radius);
+    }
+  }
+
+  void compute(std::size_t node) {
+    Profile& profile = profiles_[node];
+    const double x = map_.x(node), y = map_.y(node), origin = profile.top - kernel_.radius;
+    std::vector<float> heights;  // from the origin, for small numbers
+    float lowest = 0;
+    for (const Line& line : lines_) {
+      heights.push_back(
+          float(bed_.height(folded(x + line.dx, low_[0], high_[0]), folded(y + line.dy, low_[1], high_[1])) - origin));
+      if (heights.back() < lowest) lowest = heights.back();
+    }
+    const double bottom = lowest - kernel_.radius;  // below it everything is that has a bed
+    const float scale = float(intervals / (2 * kernel_.radius));
+    for (double z = kernel_.radius;; z -= spacing_) {
+      profile.fraction.push_back(table_sum(heights.data(), table_.data(), tables_.data(), heights.size(),
+                                           float(kernel_.radius - z), scale, intervals));
+      if (profile.fraction.back() >= 0.5f || z < bottom) break;
+    }
+  }
+
+  MeasuringKernel kernel_;
+  double spacing_;
+  std::array<double, 2> low_, high_;
+  SurfaceMap map_;
+  const HeightField& bed_;
   std::vector<float> tables_;
   std::vector<int> table_;  // where that of a line begins
   std::vector<Line> lines_;
-};
-
-/// Lowest and highest bed in the surroundings of a node, from the extremes of square tiles: most nodes lie so far above
-/// the bed that the fraction below it need not be asked for.
-class BedRange {
- public:
-  BedRange(const HeightField& bed, double reach) : bed_(bed) {
-    if (bed.empty()) return;
-    tile_ = std::max<std::size_t>(1, std::size_t(reach / bed.dx));
-    nx_ = (bed.nx + tile_ - 1) / tile_, ny_ = (bed.ny + tile_ - 1) / tile_;
-    low_.assign(nx_ * ny_, infinity), high_.assign(nx_ * ny_, -infinity);
-    for (std::size_t j = 0; j < bed.ny; ++j)
-      for (std::size_t i = 0; i < bed.nx; ++i) {
-        const double z = bed.at(i, j);
-        if (std::isnan(z)) continue;
-        double& low = low_[(j / tile_) * nx_ + i / tile_];
-        double& high = high_[(j / tile_) * nx_ + i / tile_];
-        low = std::min(low, z), high = std::max(high, z);
-      }
-  }
-
-  /// (lowest, highest) within `reach` of (x, y), or a little beyond; (infinity, -infinity) without a bed.
-  std::array<double, 2> around(double x, double y, double reach) const {
-    std::array<double, 2> range{infinity, -infinity};
-    if (bed_.empty()) return range;
-    const auto tile = [&](double u, std::size_t n) { return std::size_t(std::clamp(u, 0.0, double(n - 1))) / tile_; };
-    const std::size_t i0 = tile(std::floor((x - reach - bed_.x0) / bed_.dx), bed_.nx);
-    const std::size_t i1 = tile(std::ceil((x + reach - bed_.x0) / bed_.dx), bed_.nx);
-    const std::size_t j0 = tile(std::floor((y - reach - bed_.y0) / bed_.dx), bed_.ny);
-    const std::size_t j1 = tile(std::ceil((y + reach - bed_.y0) / bed_.dx), bed_.ny);
-    for (std::size_t j = j0; j <= j1; ++j)
-      for (std::size_t i = i0; i <= i1; ++i) {
-        range[0] = std::min(range[0], low_[j * nx_ + i]);
-        range[1] = std::max(range[1], high_[j * nx_ + i]);
-      }
-    return range;
-  }
-
- private:
-  const HeightField& bed_;
-  std::size_t tile_ = 1, nx_ = 0, ny_ = 0;
-  std::vector<double> low_, high_;
+  std::vector<Profile> profiles_;
 };
 
 /// The filled fractions along the vertical through one node. Evaluations near each other are cheap: the windows of
 /// particles within the kernel's reach slide along with z.
 class Column {
  public:
+  /// Of the phase whose surface is wanted, of the other phase, and of what lies below the bed.
   struct Fractions {
-    double water = 0, soil = 0, bed = 0;
+    double own = 0, other = 0, bed = 0, slope = 0;  // slope: derivative of all by z
+    double filled() const { return own + other + bed; }
   };
 
-  Column(const ColumnParticles& particles, const MeasuringKernel& kernel, const HeightField& bed,
-         const BedRange& bed_range, const BedFraction& bed_fraction)
-      : kernel_(kernel),
-        volume_(std::pow(particles.dp, particles.dimension)),
-        low_(particles.wall_low),
-        high_(particles.wall_high),
-        bed_(bed),
-        bed_range_(bed_range),
-        bed_fraction_(bed_fraction) {
-    if (particles.dimension == 2) low_[1] = -infinity, high_[1] = infinity;
-  }
+  Column(const ColumnParticles& particles, BedFractions& bed)
+      : radius_(2 * particles.h),
+        weight_(std::pow(particles.dp, particles.dimension) * MeasuringKernel(particles.dimension, particles.h).alpha),
+        bed_(bed) {}
 
-  /// Moves to the node at (x, y). `water` and `soil` may be null.
-  void place(double x, double y, const PhaseBins* water, const PhaseBins* soil) {
-    x_ = x, y_ = y;
+  /// Moves to a node, whose images are at all pairs of x and y. `other` may be null.
+  void place(std::size_t node, const std::vector<double>& x, const std::vector<double>& y, const PhaseBins& own,
+             const PhaseBins* other) {
+    node_ = node;
     windows_.clear();
-    for (double yi : images(y, low_[1], high_[1], kernel_.radius))
-      for (double xi : images(x, low_[0], high_[0], kernel_.radius))
-        for (const PhaseBins* bins : {water, soil})
-          if (bins)
-            bins->visit(xi, yi, kernel_.radius, [&](std::size_t begin, std::size_t end) {
-              windows_.push_back({bins, bins == water, xi, yi, begin, end, begin, begin});
-            });
-    if (windows_.empty()) return;
-    floor_ = infinity;
-    for (const Window& w : windows_) floor_ = std::min(floor_, w.bins->z(w.end - 1));
-    const auto [lowest, highest] = bed_range_.around(x, y, kernel_.radius);
-    if (lowest < infinity) floor_ = std::max(floor_, lowest);  // below the lowest bed in reach everything is filled
-    bed_top_ = highest;
-    bed_heights_.clear();
+    add_windows(x, y, own);
+    n_own_ = windows_.size();
+    lowest_ = infinity;
+    for (const Window& w : windows_) lowest_ = std::min(lowest_, own.z(w.end - 1));
+    if (other && !windows_.empty()) add_windows(x, y, *other);
   }
 
+  /// Whether no particle of the own phase is near.
   bool empty() const { return windows_.empty(); }
-  double floor() const { return floor_ - kernel_.radius; }
-  double bed_top() const { return bed_top_; }
+  /// Below it there is nothing of the own phase.
+  double floor() const { return lowest_ - radius_; }
+  double reach() const { return radius_; }
+  double bed_top() const { return bed_.top(node_) - radius_; }
 
   Fractions at(double z) {
+    const KernelSums own = sums(0, n_own_, z), other = sums(n_own_, windows_.size(), z);
+    const BedFractions::Sample bed = bed_.at(node_, z);
     Fractions f;
-    for (Window& w : windows_) {
-      w.slide(z, kernel_.radius);
-      if (w.first == w.last) continue;
-      (w.is_water ? f.water : f.soil) += volume_ * w.bins->sum(kernel_, w.first, w.last, w.x, w.y, z);
-    }
-    if (bed_top_ > z - kernel_.radius) {
-      if (bed_heights_.empty()) sample_bed();
-      f.bed = bed_fraction_(bed_heights_, bed_top_, z);
-    }
+    f.own = weight_ * own.value, f.other = weight_ * other.value, f.bed = bed.fraction;
+    f.slope = 20 * weight_ / (radius_ * radius_) * (own.slope + other.slope) + bed.slope;
     return f;
   }
 
-  /// Height of the highest particle below the reach of the last evaluation; at the start, the highest of all.
-  double next_particle() const {
-    double z = -infinity;
-    for (const Window& w : windows_)
-      if (w.last < w.end) z = std::max(z, w.bins->z(w.last));
-    return z;
+  /// Height of the highest particle at or below z; -infinity without any.
+  double next_particle(double z) const {
+    double next = -infinity;
+    for (const Window& w : windows_) {
+      std::size_t k = w.begin;
+      while (k < w.end && w.bins->z(k) > z) ++k;
+      if (k < w.end) next = std::max(next, w.bins->z(k));
+    }
+    return next;
   }
 
  private:
   struct Window {
     const PhaseBins* bins;
-    bool is_water;
     double x, y;
     std::size_t begin, end, first, last;  // the bin; in it, what lies within reach
 
+    /// What lies beyond the reach counts nothing, so the end moves by full vectors and never back.
     void slide(double z, double reach) {
       while (first < end && bins->z(first) >= z + reach) ++first;
       while (first > begin && bins->z(first - 1) < z + reach) --first;
       last = std::max(last, first);
-      while (last < end && bins->z(last) > z - reach) ++last;
-      while (last > first && bins->z(last - 1) <= z - reach) --last;
+      while (last < end && bins->z(last) > z - reach) last = std::min(last + lanes, end);
     }
   };
 
-  void sample_bed() {
-    for (const BedFraction::Line& line : bed_fraction_.lines())
-      bed_heights_.push_back(float(
-          bed_.height(folded(x_ + line.dx, low_[0], high_[0]), folded(y_ + line.dy, low_[1], high_[1])) - bed_top_));
+  KernelSums sums(std::size_t first, std::size_t last, double z) {
+    runs_.clear();
+    for (std::size_t k = first; k < last; ++k) {
+      Window& w = windows_[k];
+      w.slide(z, radius_);
+      if (w.first < w.last) runs_.push_back(w.bins->run(w.first, w.last, w.x, w.y));
+    }
+    if (runs_.empty()) return {};
+    return kernel_sums(runs_.data(), runs_.size(), float(z), float(1 / radius_));
   }
 
-  MeasuringKernel kernel_;
-  double volume_;
-  std::array<double, 2> low_, high_;
-  const HeightField& bed_;
-  const BedRange& bed_range_;
-  const BedFraction& bed_fraction_;
-  double x_ = 0, y_ = 0, bed_top_ = 0, floor_ = 0;
-  std::vector<float> bed_heights_;  // under the lines of the fraction, from bed_top_; empty until they are wanted
-  std::vector<Window> windows_;
+  void add_windows(const std::vector<double>& x, const std::vector<double>& y, const PhaseBins& bins) {
+    for (double yi : y)
+      for (double xi : x)
+        bins.visit(xi, yi, radius_, [&](std::size_t begin, std::size_t end) {
+          windows_.push_back({&bins, xi, yi, begin, end, begin, begin});
+        });
+  }
+
+  double radius_, weight_;
+  BedFractions& bed_;
+  std::size_t node_ = 0;
+  double lowest_ = infinity;
+  std::vector<Window> windows_;  // first those of the own phase
+  std::size_t n_own_ = 0;
+  std::vector<Run> runs_;
 };
 
-/// The highest height at which the filled fraction rises downwards through 1/2 and `share` of the fractions is more
-/// than half of it; NaN where there is none.
-template <class Share>
-double highest_surface(Column& column, double dp, const Share& share) {
+/// A height and what is filled there.
+struct Level {
+  double z = 0;
+  Column::Fractions f;
+};
+
+/// The height at which 1/2 is filled, with the part that is of the own phase; less is filled at `upper`, not less at
+/// `lower`.
+std::pair<double, double> crossing(Column& column, Level upper, Level lower, double dp) {
+  for (int k = 0;; ++k) {
+    const double width = upper.z - lower.z, rise = upper.f.filled() - lower.f.filled(), chord = rise / width;
+    const double t = (0.5 - lower.f.filled()) / rise;
+    const auto alike = [&](double slope) { return slope < chord / 2 && slope > chord * 2; };
+    double z = lower.z + t * width;
+    const bool smooth = alike(upper.f.slope) && alike(lower.f.slope);
+    if (smooth)  // the cubic z(filled) with the values and slopes of both ends
+      z += t * (1 - t) * rise * ((1 - t) * (1 / lower.f.slope - 1 / chord) - t * (1 / upper.f.slope - 1 / chord));
+    // It is exact within 1e-5 dp between ends so near, and so is Newton's step below.
+    if ((smooth && width < 0.1 * dp) || width < 1e-5 * dp || k == 40)
+      return {z, lower.f.own + (z - lower.z) / width * (upper.f.own - lower.f.own)};
+    if (k % 3 == 2) z = (upper.z + lower.z) / 2;
+    const Level here{z, column.at(z)};
+    const double newton = (0.5 - here.f.filled()) / here.f.slope;
+    if (alike(here.f.slope) && std::abs(newton) < 3e-3 * dp) return {z + newton, here.f.own};
+    (here.f.filled() < 0.5 ? upper : lower) = here;
+  }
+}
+
+/// The highest height at which the filled fraction rises downwards through 1/2 and more than half of it is of the
+/// column's own phase; NaN where there is none.
+double highest_surface(Column& column, double dp) {
   if (column.empty()) return nan_value;
-  const auto excess = [&](double z) {
-    const Column::Fractions f = column.at(z);
-    return f.water + f.soil + f.bed - 0.5;
+  // Where the surface should be by the slope, and a little beyond, so that it lies between; dp/2 at most.
+  const auto step = [&](const Column::Fractions& f) {
+    return f.slope < 0 ? std::min(dp / 2, std::abs((f.filled() - 0.5) / f.slope) + dp / 20) : dp / 2;
   };
-  const double step = dp / 2;
-  // No surface lies a whole dp above all particles; should the bed fill this place, the search starts above it.
-  double upper = column.next_particle() + dp;
-  double f_upper = excess(upper);
-  while (f_upper >= 0) f_upper = excess(upper += step);
-  while (upper > column.floor()) {
-    double lower = upper - step;
-    if (f_upper == -0.5) {
-      lower = std::min(lower, std::max({column.next_particle(), column.bed_top(), column.floor()}) + dp);
+  double top = column.next_particle(infinity) + dp / 2;
+  Level upper{top, column.at(top)};
+  // Above all particles what is filled only falls with the height: either no surface lies higher, or one does at most.
+  while (upper.f.filled() >= 0.5 && upper.f.own > 0.25) {
+    const Level lower = upper;
+    upper.z += step(lower.f);
+    upper.f = column.at(upper.z);
+    if (upper.f.filled() >= 0.5) continue;
+    const auto [z, own] = crossing(column, upper, lower, dp);
+    if (own > 0.25) return z;
+    upper = lower;
+    break;
+  }
+  // The bed's part only grows downwards, and where it is a quarter the phase cannot be more than half of 1/2.
+  while (upper.z > column.floor() && upper.f.bed < 0.25) {
+    Level lower;
+    if (upper.f.own + upper.f.other == 0 && upper.f.bed == 0) {
+      lower.z = std::max({column.next_particle(upper.z - column.reach()), column.bed_top(), column.floor()}) + dp;
+      lower.z = std::min(lower.z, upper.z - dp / 2);
+    } else {
+      lower.z = upper.z - (upper.f.filled() < 0.5 ? step(upper.f) : dp / 2);
     }
-    double f_lower = excess(lower);
-    if (f_upper < 0 && f_lower >= 0) {
-      // Illinois' false position; the fraction is all but linear here.
-      double a = upper, fa = f_upper, b = lower, fb = f_lower, z = b;
-      for (int k = 0; k < 40 && std::abs(a - b) > 1e-4 * dp && fb != 0; ++k) {
-        z = (a * fb - b * fa) / (fb - fa);
-        const double f = excess(z);
-        if (std::abs(f) < 1e-6) break;
-        if ((f < 0) == (fb < 0)) {
-          fa /= 2;
-        } else {
-          a = b, fa = fb;
-        }
-        b = z, fb = f;
-      }
-      const Column::Fractions f = column.at(z);
-      if (share(f) > 0.5 * (f.water + f.soil + f.bed)) return z;
-      f_lower = excess(lower);  // slides the windows back
+    lower.f = column.at(lower.z);
+    if (upper.f.filled() < 0.5 && lower.f.filled() >= 0.5) {
+      const auto [z, own] = crossing(column, upper, lower, dp);
+      if (own > 0.25) return z;
     }
-    upper = lower, f_upper = f_lower;
+    upper = lower;
   }
   return nan_value;
 }
 
 }  // namespace
 
-ColumnSurfaces column_surfaces(const ColumnParticles& particles, const SurfaceMap& map, const HeightField& bed) {
-  LGIW_EXPECT(particles.dp > 0 && particles.h > 0 && map.nx > 0 && map.ny > 0 && map.dx > 0);
-  const MeasuringKernel kernel(particles.dimension, particles.h);
-  const double dp = particles.dp;
-  const BinGrid grid(map, particles.dimension, particles.h);
+struct ColumnSurfaceMap::Bed : BedFractions {
+  using BedFractions::BedFractions;
+};
+
+ColumnSurfaceMap::ColumnSurfaceMap(const SurfaceMap& map, const HeightField& bed) : map_(map), bed_(bed) {
+  LGIW_EXPECT(map.nx > 0 && map.ny > 0 && map.dx > 0);
+}
+ColumnSurfaceMap::~ColumnSurfaceMap() = default;
+
+ColumnSurfaces ColumnSurfaceMap::operator()(const ColumnParticles& particles) {
+  LGIW_EXPECT(particles.dp > 0 && particles.h > 0);
+  if (!fractions_) fractions_ = std::make_unique<Bed>(particles, map_, bed_);
+  const double dp = particles.dp, radius = 2 * particles.h;
+  const BinGrid grid(map_, particles.dimension, particles.h);
   const PhaseBins water(particles, 0, particles.n_water, grid);
   const PhaseBins soil(particles, particles.n_water, particles.n_soil, grid);
-  const BedFraction bed_fraction(particles.dimension, kernel);
-  const BedRange bed_range(bed, kernel.radius);
+  const bool flat = particles.dimension == 2;
+  std::vector<std::vector<double>> x_images, y_images;
+  for (std::size_t i = 0; i < map_.nx; ++i)
+    x_images.push_back(images(map_.x(i), particles.wall_low[0], particles.wall_high[0], radius));
+  for (std::size_t j = 0; j < map_.ny; ++j)
+    y_images.push_back(images(map_.y(j * map_.nx), flat ? -infinity : particles.wall_low[1],
+                              flat ? infinity : particles.wall_high[1], radius));
 
   ColumnSurfaces result;
-  result.water.assign(map.size(), nan_float);
-  result.depth.assign(map.size(), nan_float);
-  if (particles.n_soil) result.soil.assign(map.size(), nan_float);
-  if (particles.velocity) result.speed.assign(map.size(), nan_float);
-  if (particles.velocity && particles.n_soil) result.soil_speed.assign(map.size(), nan_float);
-  const double reach = std::max(map.dx, particles.h) / 2;  // at least h/2: a wet column holds a particle
+  result.water.assign(map_.size(), nan_float);
+  result.depth.assign(map_.size(), nan_float);
+  if (particles.n_soil) result.soil.assign(map_.size(), nan_float);
+  if (particles.velocity) result.speed.assign(map_.size(), nan_float);
+  if (particles.velocity && particles.n_soil) result.soil_speed.assign(map_.size(), nan_float);
+  const double reach = std::max(map_.dx, particles.h) / 2;  // at least h/2: a wet column holds a particle
 
 #pragma omp parallel
   {
-    Column column(particles, kernel, bed, bed_range, bed_fraction);
+    Column column(particles, *fractions_);
 #pragma omp for schedule(dynamic, 64)
-    for (std::size_t node = 0; node < map.size(); ++node) {
-      const double x = map.x0 + double(node % map.nx) * map.dx, y = map.y0 + double(node / map.nx) * map.dx;
+    for (std::size_t node = 0; node < map_.size(); ++node) {
+      const double x = map_.x(node), y = map_.y(node);
+      const std::vector<double>&xi = x_images[node % map_.nx], &yi = y_images[node / map_.nx];
       double soil_z = nan_value;
       if (particles.n_soil) {
-        column.place(x, y, nullptr, &soil);
-        soil_z = highest_surface(column, dp, [](const Column::Fractions& f) { return f.soil; });
+        column.place(node, xi, yi, soil, nullptr);
+        soil_z = highest_surface(column, dp);
         result.soil[node] = float(soil_z);
         if (particles.velocity && !std::isnan(soil_z))
           result.soil_speed[node] = soil.largest_speed(x, y, reach, soil_z + dp / 2);
       }
       if (!particles.n_water) continue;
-      column.place(x, y, &water, particles.n_soil ? &soil : nullptr);
-      const double water_z = highest_surface(column, dp, [](const Column::Fractions& f) { return f.water; });
+      column.place(node, xi, yi, water, particles.n_soil ? &soil : nullptr);
+      const double water_z = highest_surface(column, dp);
       if (std::isnan(water_z)) continue;
       result.water[node] = float(water_z);
-      double base = bed.empty() ? nan_value : bed.height(x, y);
+      double base = bed_.empty() ? nan_value : bed_.height(x, y);
       if (soil_z < water_z && !(soil_z < base)) base = soil_z;
       result.depth[node] = float(std::max(0.0, water_z - base));
       if (particles.velocity) result.speed[node] = water.largest_speed(x, y, reach, water_z + dp / 2);
     }
   }
   return result;
+}
+
+ColumnSurfaces column_surfaces(const ColumnParticles& particles, const SurfaceMap& map, const HeightField& bed) {
+  return ColumnSurfaceMap(map, bed)(particles);
 }
 
 }  // namespace lgiw

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "files/height_field.hh"
@@ -34,7 +35,7 @@ struct ColumnSurfaces {
   std::vector<float> soil_speed;  // the same of soil
 };
 
-/// Surfaces at every node of `map`.
+/// Surfaces at every node of `map`, evaluated again and again as the particles move over one bed.
 ///
 /// The filled fraction at a point is sum_j V_j W(r - r_j) over the particles, plus the fraction of the kernel that lies
 /// below the bed (by integration over the height field: right on slopes, in corners and at steps); a surface is where
@@ -43,7 +44,22 @@ struct ColumnSurfaces {
 /// 1/2 and is passed over. Soil: fraction of soil + bed. Robust on dry beds (NaN) and at the walls (the bed counts as
 /// filled). Speeds are those of particles at most dp/2 above the surface within max(map.dx, h)/2 of the node in x and
 /// in y, so that splash does not count. Uses all OpenMP threads; the result does not depend on their number. Particles
-/// that are lost, not finite or outside the map are left out. `bed` may be empty.
+/// that are lost, not finite or outside the map are left out. `bed` may be empty; it is referred to. Dimension, dp,
+/// h and walls are those of the first call: what depends on them and on the bed alone is computed once.
+class ColumnSurfaceMap {
+ public:
+  ColumnSurfaceMap(const SurfaceMap& map, const HeightField& bed);
+  ~ColumnSurfaceMap();
+  ColumnSurfaces operator()(const ColumnParticles& particles);
+
+ private:
+  struct Bed;
+  SurfaceMap map_;
+  const HeightField& bed_;
+  std::unique_ptr<Bed> fractions_;
+};
+
+/// The same, once.
 ColumnSurfaces column_surfaces(const ColumnParticles& particles, const SurfaceMap& map, const HeightField& bed);
 
 }  // namespace lgiw

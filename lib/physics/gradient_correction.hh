@@ -18,8 +18,11 @@ struct MomentMatrix {
   /// A neighbour at r = x_i - x_j with f = V_j W'/r.
   LGIW_FN void add(T f, const Vec<T, D>& r) {
     int k = 0;
-    for (int a = 0; a < D; ++a)
+    LGIW_COMPONENTS
+    for (int a = 0; a < D; ++a) {
+      LGIW_COMPONENTS
       for (int b = a; b < D; ++b) c[k++] -= f * r.c[a] * r.c[b];
+    }
   }
   LGIW_FN void scale(T s) {
     for (int k = 0; k < D * (D + 1) / 2; ++k) c[k] *= s;

@@ -7,3 +7,13 @@
 #else
 #define LGIW_FN inline __attribute__((always_inline))
 #endif
+
+/// After the parameters of a lambda that is the body of a pair loop: a call left in the loop keeps it from vectorising.
+#define LGIW_INLINE __attribute__((always_inline))
+
+/// Before a loop over components inside a pair loop: with a loop left in it the pair loop does not vectorise.
+#if defined(__CUDACC__)
+#define LGIW_COMPONENTS _Pragma("unroll")
+#else
+#define LGIW_COMPONENTS _Pragma("GCC unroll 9")
+#endif

@@ -15,9 +15,11 @@ struct NearBox {
 };
 
 /// Appends the fields of the particles [begin, end) that are near the box to to[f] + n, in order; the first D fields
-/// are the places. Returns the new n. Up to `widest_lanes` numbers behind it are overwritten.
+/// are the places, and index[n], unless it is null, gets the particle's number. Returns the new n. Up to
+/// `widest_lanes` numbers behind it are overwritten.
 template <int lanes, class T, int D>
-int copy_near(const NearBox<T, D>& box, int fields, const T* const* from, int begin, int end, T* const* to, int n) {
+int copy_near(const NearBox<T, D>& box, int fields, const T* const* from, int begin, int end, T* const* to, int n,
+              int* index = nullptr) {
   for (int j = begin; j < end; ++j) {
     T d2 = 0;
     for (int k = 0; k < D; ++k) {
@@ -26,6 +28,7 @@ int copy_near(const NearBox<T, D>& box, int fields, const T* const* from, int be
       d2 += d > 0 ? d * d : T(0);
     }
     for (int f = 0; f < fields; ++f) to[f][n] = from[f][j];
+    if (index) index[n] = j;
     n += d2 < box.reach2;  // no branch: half of them are near
   }
   return n;
@@ -34,7 +37,8 @@ int copy_near(const NearBox<T, D>& box, int fields, const T* const* from, int be
 #if LGIW_LANES == 16
 template <int lanes, int D>
 int copy_near(const NearBox<float, D>& box, int fields, const float* const* from, int begin, int end, float* const* to,
-              int n) {
+              int n, int* index = nullptr) {
+  const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512 zero = _mm512_setzero_ps(), reach2 = _mm512_set1_ps(box.reach2);
   __m512 low[D], high[D];
   for (int k = 0; k < D; ++k) low[k] = _mm512_set1_ps(box.low[k]), high[k] = _mm512_set1_ps(box.high[k]);
@@ -51,6 +55,8 @@ int copy_near(const NearBox<float, D>& box, int fields, const float* const* from
     const __mmask16 near = _mm512_mask_cmp_ps_mask(present, d2, reach2, _CMP_LT_OQ);
     for (int f = 0; f < fields; ++f)
       _mm512_storeu_ps(to[f] + n, _mm512_maskz_compress_ps(near, _mm512_maskz_loadu_ps(near, from[f] + j)));
+    if (index)
+      _mm512_storeu_si512(index + n, _mm512_maskz_compress_epi32(near, _mm512_add_epi32(_mm512_set1_epi32(j), lane)));
     n += __builtin_popcount(near);
   }
   return n;
@@ -69,7 +75,7 @@ inline constexpr CompressTable compress_table;
 
 template <int lanes, int D>
 int copy_near(const NearBox<float, D>& box, int fields, const float* const* from, int begin, int end, float* const* to,
-              int n) {
+              int n, int* index = nullptr) {
   const __m256 zero = _mm256_setzero_ps(), reach2 = _mm256_set1_ps(box.reach2);
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   __m256 low[D], high[D];
@@ -87,6 +93,8 @@ int copy_near(const NearBox<float, D>& box, int fields, const float* const* from
     const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(compress_table.lane[near]));
     for (int f = 0; f < fields; ++f)
       _mm256_storeu_ps(to[f] + n, _mm256_permutevar8x32_ps(_mm256_maskload_ps(from[f] + j, present), order));
+    if (index)
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(index + n), _mm256_add_epi32(_mm256_set1_epi32(j), order));
     n += __builtin_popcount(unsigned(near));
   }
   return n;

@@ -1,7 +1,10 @@
-// The cell grid that finds neighbours. Cells are numbered along x first: a row of them is a contiguous range of the
-// particles of a phase, sorted by cell. Where they are as wide as the kernel's support, the neighbours of a particle
-// lie in 3 (2-D) or 9 (3-D) rows of three.
+// The cell grid that finds neighbours. Cells are numbered along the shortest side of the domain first and along the
+// longest last: a row of them is a contiguous range of the particles of a phase, sorted by cell, and neighbours lie
+// close to each other in memory. Where cells are as wide as the kernel's support, the neighbours of a particle lie in
+// 3 (2-D) or 9 (3-D) rows of three.
 #pragma once
+
+#include <utility>
 
 #include "physics/vec.hh"
 
@@ -13,7 +16,8 @@ struct Grid {
   double low[D];
   double inverse_width;
   int n[D];
-  int cells;  // the product of n; also the key of particles that have left the domain
+  int order[D], stride[D];  // axes from the first to the last numbered; cells between neighbours along each axis
+  int cells;                // the product of n; also the key of particles that have left the domain
 
   Grid() = default;
   /// Covers the box from `low_corner` to `high_corner` with two cells to spare on each side, so that the neighbouring
@@ -27,6 +31,10 @@ struct Grid {
       total *= n[k];
     }
     cells = total < 2.0e9 ? int(total) : -1;
+    for (int k = 0; k < D; ++k) order[k] = k;
+    for (int k = 1; k < D; ++k)
+      for (int m = k; m > 0 && n[order[m]] < n[order[m - 1]]; --m) std::swap(order[m], order[m - 1]);
+    for (int k = 0, step = 1; k < D && cells > 0; step *= n[order[k++]]) stride[order[k]] = step;
   }
 
   LGIW_FN int coordinate(double x, int k) const {
@@ -35,13 +43,13 @@ struct Grid {
   }
   template <class P>
   LGIW_FN int cell(const Vec<P, D>& x) const {
-    int c = coordinate(double(x[D - 1]), D - 1);
-    for (int k = D - 2; k >= 0; --k) c = c * n[k] + coordinate(double(x[k]), k);
+    int c = 0;
+    for (int k = 0; k < D; ++k) c += coordinate(double(x[k]), k) * stride[k];
     return c;
   }
   /// Particles [begin, end) in the k-th row of three cells around `cell`; `start` has cells + 1 entries.
   LGIW_FN void row(const int* start, int cell, int k, int& begin, int& end) const {
-    const int c = D == 2 ? cell + (k - 1) * n[0] : cell + (k % 3 - 1) * n[0] + (k / 3 - 1) * n[0] * n[1];
+    const int c = cell + (k % 3 - 1) * stride[order[1]] + (D == 2 ? 0 : (k / 3 - 1) * stride[order[D - 1]]);
     begin = start[c - 1];
     end = start[c + 2];
   }

@@ -66,13 +66,45 @@ struct OpenMpBackend {
   /// The same, and raises *limits to the largest that f returned.
   template <class T, class View, class F>
   void for_each_near_limits(const View& own, const F& f, Limits<T>* limits) {
-    const auto raise = [](Limits<T>& to, const Limits<T>& l) {
-      to.acceleration2 = largest(to.acceleration2, l.acceleration2), to.mu = largest(to.mu, l.mu);
-    };
-    struct alignas(64) Found : Limits<T> {};  // a cache line a thread: they write all the time
-    std::vector<Found> found(omp_get_max_threads());
-    over_tiles(own, f, [&](F& pass, int i) { raise(found[omp_get_thread_num()], pass(i)); });
-    for (const Found& l : found) raise(*limits, l);
+    LargestLimits<T> found(*limits);
+    over_tiles(own, f, [&](F& pass, int i) { found.add(pass(i)); });
+  }
+  /// Runs a pass over the pairs of the phase `own`, each pair once: its sums start from zero. Raises *limits where the
+  /// pass returns some.
+  ///
+  /// What a tile adds to later ones would be lost where two threads add at a time. The cells are therefore cut into
+  /// slabs as thick as the furthest neighbour: a slab adds to itself and the next, every other slab can be worked on at
+  /// a time, and sums are in the same order whatever the number of threads.
+  template <class T, class View, class F>
+  void for_each_pair(const View& own, const F& f, Limits<T>* limits) {
+    constexpr bool limiting = !std::is_void_v<std::invoke_result_t<const F&, int>>;
+    const int* start = own.start;
+    const int cells = f.grid.cells;
+    LargestLimits<T> found(*limits);
+    prepare_memory();
+#pragma omp parallel
+    {
+      F pass = f;
+      PairNeighbourhood<typename F::Types, Tile> near(pass, memory_[omp_get_thread_num()]);
+      const int thickness = near.cells().furthest(), slabs = (cells + thickness - 1) / thickness;
+#pragma omp for schedule(static)
+      for (int i = 0; i < own.n; ++i) near.clear_sums(i);
+      for (int odd = 0; odd < 2; ++odd)
+#pragma omp for schedule(dynamic, 1)
+        for (int s = odd; s < slabs; s += 2) {
+          const int end = int(std::min(int64_t(cells), int64_t(s + 1) * thickness));
+          for (int c = s * thickness; c < end; ++c) {
+            if (start[c] == start[c + 1]) continue;
+            near.look(c);
+            for (int i = start[c]; i < start[c + 1]; ++i)
+              if constexpr (limiting)
+                found.add(pass(i));
+              else
+                pass(i);
+            near.give_back();
+          }
+        }
+    }
   }
 
   /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c.
@@ -146,7 +178,7 @@ struct OpenMpBackend {
     const int* start = own.start;
     const int cells = f.grid.cells, active = start[cells], threads = omp_get_max_threads();
     const int share = std::clamp(active / (16 * threads), 64, 512), shares = (active + share - 1) / share;
-    while (int(memory_.size()) < threads) memory_.emplace_back();
+    prepare_memory();
 #pragma omp parallel
     {
       F pass = f;
@@ -157,7 +189,7 @@ struct OpenMpBackend {
         int c = int(std::lower_bound(start, start + cells, s * share) - start);
         for (; c < cells && start[c] < end; ++c) {
           if (start[c] == start[c + 1]) continue;
-          near.look(own.x, start[c], start[c + 1]);
+          near.look(c, own.x, start[c], start[c + 1]);
           for (int i = start[c]; i < start[c + 1]; ++i) run(pass, i);
         }
       }
@@ -175,6 +207,28 @@ struct OpenMpBackend {
   }
 
  private:
+  /// The largest limits that the threads find.
+  template <class T>
+  class LargestLimits {
+   public:
+    explicit LargestLimits(Limits<T>& to) : to_(to), found_(omp_get_max_threads()) {}
+    ~LargestLimits() {
+      for (const Found& l : found_) raise(to_, l);
+    }
+    void add(const Limits<T>& l) { raise(found_[omp_get_thread_num()], l); }
+
+   private:
+    struct alignas(64) Found : Limits<T> {};  // a cache line a thread: they write all the time
+    static void raise(Limits<T>& to, const Limits<T>& l) {
+      to.acceleration2 = largest(to.acceleration2, l.acceleration2), to.mu = largest(to.mu, l.mu);
+    }
+    Limits<T>& to_;
+    std::vector<Found> found_;
+  };
+  void prepare_memory() {
+    while (int(memory_.size()) < omp_get_max_threads()) memory_.emplace_back();
+  }
+
   std::vector<Tile> memory_;  // one a thread
   std::vector<int> counts_;   // of the sort
 };

@@ -24,6 +24,8 @@ struct Traits {
   static constexpr int S = StressSize<D_>::value;
   using Machine = Machine_;
   static constexpr bool tiles = Machine::tiles;
+  /// Passes over the pairs of a phase compute each pair once, for both sides (tiles.hh).
+  static constexpr bool pairs_once = tiles && D_ == 3;
   using Kernel = K_<T_, D_>;
 };
 
@@ -151,7 +153,8 @@ struct WaterView {
   static constexpr int D = Tr::D;
   using T = typename Tr::T;
   int n = 0;
-  const int* start = nullptr;  // [cells + 1]
+  const int* start = nullptr;                 // [cells + 1]
+  const unsigned char* cells_near = nullptr;  // [cells] 0: no particle of this phase is near; null: not known
   const T* x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
@@ -172,6 +175,7 @@ struct SoilView {
   using T = typename Tr::T;
   int n = 0;
   const int* start = nullptr;
+  const unsigned char* cells_near = nullptr;
   const T* x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
@@ -195,6 +199,7 @@ struct WallView {
   using T = typename Tr::T;
   int n = 0;
   const int* start = nullptr;
+  const unsigned char* cells_near = nullptr;
   const T* x[D] = {};
   const T* normal[D] = {};
   const T* weight = nullptr;    // V_b / dp^D

@@ -147,6 +147,7 @@ class ParticleSimulation final : public Simulation {
     Array<T> x[D], normal[D], weight, slip, friction, term, excess, v[D], stress[S];
     Array<unsigned> id;
     Array<int> start;
+    Array<unsigned char> cells_near;
     template <class F>
     void all(F&& f) {
       for (auto& q : x) f(q, "position");
@@ -155,7 +156,7 @@ class ParticleSimulation final : public Simulation {
           f(excess, "image density");
       for (auto& q : v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
-      f(id, "id"), f(start, "cell starts");
+      f(id, "id"), f(start, "cell starts"), f(cells_near, "cells near walls");
     }
   };
   /// Particles of the bodies that move as prescribed; few, and sorted anew in every step.
@@ -515,7 +516,22 @@ class ParticleSimulation final : public Simulation {
     for (unsigned i : id) ++start[key[i] + 1];
     for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
     put(wall_.start, start);
+    if constexpr (Tr::tiles) put(wall_.cells_near, cells_near(start));
     fill_common(in, id, wall_, wall_.v);
+  }
+  /// 1 for cells that hold or neighbour particles, those of the next-but-one cell included; cells are wider than h.
+  std::vector<unsigned char> cells_near(const std::vector<int>& start) const {
+    std::vector<unsigned char> out(grid_.cells);
+    for (int c = 0; c < grid_.cells; ++c) out[c] = start[c + 1] > start[c];
+    for (int k = 0; k < D; ++k) {
+      const std::vector<unsigned char> before = out;
+      for (int c = 0; c < grid_.cells; ++c) {
+        const int at = c / grid_.stride[k] % grid_.n[k];
+        for (int step = -2; step <= 2; ++step)
+          if (at + step >= 0 && at + step < grid_.n[k]) out[c] |= before[c + step * grid_.stride[k]];
+      }
+    }
+    return out;
   }
   void fill_bodies(const InitialParticles& in) {
     const std::vector<unsigned> id = wall_ids(in, true);
@@ -591,6 +607,7 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_ && n_bodies_) run<WallVelocities<Tr, true>>("images", body_view());
     if (n_water_)
       timed("water rates", [&] {
+        pairs<WaterPairRates<Tr>>(water_view());
         WaterRates<Tr> f;
         fill(f);
         f.failed = &state_.data()->failed_water;
@@ -612,8 +629,12 @@ class ParticleSimulation final : public Simulation {
   }
   void compute_forces() {
     backend_.single(ResetLimits<T>{limits_.data()});
-    if (n_water_) run_limits<WaterForces<Tr>>("water forces", water_view());
+    if (n_water_) {
+      timed("water forces", [&] { pairs<WaterPairForces<Tr>>(water_view()); });
+      run_limits<WaterForces<Tr>>("water forces", water_view());
+    }
     if (n_soil_) {
+      timed("soil forces", [&] { pairs<SoilPairForces<Tr>>(soil_view()); });
       if (p_.coulomb_walls)
         run_limits<SoilForces<Tr, true>>("soil forces", soil_view());
       else
@@ -706,6 +727,11 @@ class ParticleSimulation final : public Simulation {
   void run_limits(const char* phase, const View& own) {
     timed(phase, [&] { backend_.template for_each_near_limits<T>(own, pass<F>(), limits_.data()); });
   }
+  /// The sums of a pass over the pairs of one phase, where each is computed once.
+  template <class F, class View>
+  void pairs([[maybe_unused]] const View& own) {
+    if constexpr (Tr::pairs_once) backend_.template for_each_pair<T>(own, pass<F>(), limits_.data());
+  }
   template <class F>
   void timed(const char* phase, F&& f) {
     const double start = backend_.now();
@@ -767,7 +793,8 @@ class ParticleSimulation final : public Simulation {
     for (int k = 0; k < D; ++k)
       b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
     for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
-    b.start = wall_.start.data(), b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
+    b.start = wall_.start.data(), b.cells_near = wall_.cells_near.data();
+    b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
     b.friction = wall_.friction.data();
     b.term = wall_.term.data(), b.excess = wall_.excess.data(), b.id = wall_.id.data();
     return b;

@@ -69,8 +69,8 @@ struct Pass {
     for (int k = 0; k < S; ++k) a[k][i] = s.c[k];
   }
   /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2, and `view`
-  /// is one of nearby(). Those beyond the kernel's support may come too, and x itself with r = 0: every pair law is zero
-  /// for them.
+  /// is one of nearby(). Those beyond the kernel's support may come too, and x itself with r = 0: every pair law is
+  /// zero for them.
   template <class View, class F>
   LGIW_FN void for_each_near(const View& view, [[maybe_unused]] int cell, const V& x, const F& f) const {
     if constexpr (Tr::tiles) {
@@ -93,6 +93,9 @@ struct Pass {
         }
       }
     }
+  }
+  static LGIW_FN void add(T* const* a, int i, T s, const V& v) {
+    for (int k = 0; k < D; ++k) a[k][i] += s * v.c[k];
   }
   /// The phases among which a pass finds its neighbours: whole, or copies of what is near a tile.
   LGIW_FN const auto& nearby() const {
@@ -335,9 +338,61 @@ struct BodyMotion : Pass<Tr> {
 // ---------------------------------------------------------------------------------------------------------------------
 // Rates: density of water, stress of soil
 
+/// Continuity of a water particle over water. A pass of its own where each pair is computed once: it
+/// leaves the sums in excess_next.
+template <class Tr>
+struct WaterPairRates : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+
+  template <class F>
+  void reads(F&& f) {
+    auto& w = this->copies.water;
+    if (this->parameters.density_diffusion)
+      f(w, w.v, w.excess);
+    else
+      f(w, w.v);
+  }
+  template <class F>
+  void sums(F&& f) {
+    f(this->copies.water.excess_next);
+  }
+  LGIW_FN void operator()(int i) const {
+    const auto& w = this->water;
+    w.excess_next[i] += over_water(i, this->cell_of(w, i), B::load(w.x, i), B::load(w.v, i));
+  }
+  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
+    return this->parameters.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
+  }
+  template <bool diffusion>
+  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
+    const auto& w = this->nearby().water;
+    const auto kernel = this->parameters.kernel;
+    const auto continuity = this->parameters.continuity;
+    const T e_i = this->water.excess[i], half = this->half_step(), rho0 = this->parameters.eos.rho0;
+    T rate = 0;
+    this->for_each_near(w, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
+      const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
+      const T f = kernel.gradient(Distance<T>(dot(r, r)));
+      T mine, other;
+      if constexpr (diffusion) {
+        const T e_j = w.excess[j];
+        mine = continuity(r, v_ij, f, e_i, e_j, rho0 + e_j);
+        other = continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i);
+      } else {
+        mine = other = continuity(r, v_ij, f);
+      }
+      rate += mine;
+      if constexpr (Tr::pairs_once) w.excess_next[j] += other;
+    });
+    return rate;
+  }
+};
+
 /// Continuity of a water particle over water, walls and soil, and its new density.
 template <class Tr>
-struct WaterRates : Pass<Tr> {
+struct WaterRates : WaterPairRates<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
   using V = typename B::V;
@@ -347,28 +402,9 @@ struct WaterRates : Pass<Tr> {
   template <class F>
   void reads(F&& f) {
     auto& near = this->copies;
-    f(near.water, near.water.v), f(near.wall, near.wall.weight), f(near.soil, near.soil.v);
+    if (!Tr::pairs_once) WaterPairRates<Tr>::reads(f);
+    f(near.wall, near.wall.weight), f(near.soil, near.soil.v);
     f(near.bodies, near.bodies.weight, near.bodies.own_v);
-    if (this->parameters.density_diffusion) f(near.water, near.water.excess);
-  }
-
-  template <bool diffusion>
-  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
-    const auto& w = this->nearby().water;
-    const auto& p = this->parameters;
-    const T e_i = this->water.excess[i], half = this->half_step();
-    T rate = 0;
-    this->for_each_near(w, cell, x, [&](int j, const V& now, T) {
-      const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
-      const T f = p.kernel.gradient(Distance<T>(dot(r, r)));
-      if constexpr (diffusion) {
-        const T e_j = w.excess[j];
-        rate += p.continuity(r, v_ij, f, e_i, e_j, p.eos.rho0 + e_j);
-      } else {
-        rate += p.continuity(r, v_ij, f);
-      }
-    });
-    return rate;
   }
 
   template <class Walls>
@@ -376,7 +412,7 @@ struct WaterRates : Pass<Tr> {
     const auto& p = this->parameters;
     const T half = this->half_step();
     T rate = 0;
-    this->for_each_near(b, cell, x, [&](int j, const V& now, T) {
+    this->for_each_near(b, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
       const V v_ib = B::relative(v, b, j), r = B::earlier(now, v_ib, half);
       rate += b.weight[j] * p.continuity(r, v_ib, p.kernel.gradient(Distance<T>(dot(r, r))));
     });
@@ -392,7 +428,7 @@ struct WaterRates : Pass<Tr> {
     }
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
-    T rate = p.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
+    T rate = Tr::pairs_once ? w.excess_next[i] : this->over_water(i, cell, x, v);
     T at_walls = 0;
     if (this->wall.n) at_walls += over_walls(this->nearby().wall, cell, x, v);
     if (this->bodies.n) at_walls += over_walls(this->nearby().bodies, cell, x, v);
@@ -401,7 +437,7 @@ struct WaterRates : Pass<Tr> {
       const T half = this->half_step();
       T sum = 0;
       const auto& s = this->nearby().soil;
-      this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
+      this->for_each_near(s, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
         const V v_ws = v - B::load(s.v, j), r = B::earlier(now, v_ws, half);
         sum += p.continuity(r, v_ws, p.kernel.gradient(Distance<T>(dot(r, r))));
       });
@@ -448,7 +484,7 @@ struct WallVelocities : Pass<Tr> {
     const V x = B::load(b.x, i);
     V sum{};
     T weight = 0;
-    this->for_each_near(s, cell, x, [&](int j, const V&, T r2) {
+    this->for_each_near(s, cell, x, [&](int j, const V&, T r2) LGIW_INLINE {
       const T w = this->parameters.kernel.value(square_root(r2));
       weight += w;
       add_scaled(sum, w, B::load(s.v, j));
@@ -487,14 +523,15 @@ struct SoilRates : Pass<Tr> {
     const auto& s = this->nearby().soil;
     const auto& p = this->parameters;
     const T half = this->half_step();
-    this->for_each_near(s, cell, x, [&](int j, const V& now, T) {
+    this->for_each_near(s, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
       const V v_ji = B::load(s.v, j) - v, r = B::earlier(now, v_ji, -half);
       const T f = p.kernel.gradient(Distance<T>(dot(r, r)));
-      for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      LGIW_COMPONENTS
+      for (int ab = 0; ab < D * D; ++ab) l[ab] += v_ji.c[ab / D] * (f * r.c[ab % D]);
       if constexpr (corrected) moment.add(f, r);
       if constexpr (diffusion) {
         const T g = dot(p.gravity, r);
+        LGIW_COMPONENTS
         for (int c = 0; c < S; ++c) smoothing.c[c] -= (s.stress[c][j] - sigma.c[c] - g * at_rest.c[c]) * f;
       }
     });
@@ -504,11 +541,11 @@ struct SoilRates : Pass<Tr> {
   LGIW_FN void over_walls(const Walls& walls, int cell, const V& x, const V& v, T* l,
                           MomentMatrix<T, D>& moment) const {
     const T half = this->half_step();
-    this->for_each_near(walls, cell, x, [&](int j, const V& now, T) {
+    this->for_each_near(walls, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
       const V v_ji = B::load(walls.v, j) - v, r = B::earlier(now, B::relative(v, walls, j), half);
       const T f = walls.weight[j] * this->parameters.kernel.gradient(Distance<T>(dot(r, r)));
-      for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) l[a * D + b] += v_ji.c[a] * (f * r.c[b]);
+      LGIW_COMPONENTS
+      for (int ab = 0; ab < D * D; ++ab) l[ab] += v_ji.c[ab / D] * (f * r.c[ab % D]);
       if constexpr (corrected) moment.add(f, r);
     });
   }
@@ -596,7 +633,7 @@ struct WaterImage : Pass<Tr> {
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
     V moment{};
-    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const T rho = p.eos.rho0 + w.excess[j];
       const T kernel = p.kernel.value(square_root(r2));
       weight += kernel / rho;           // V_w = m_w / rho_w; the mass cancels
@@ -648,7 +685,7 @@ struct WallImages : WaterImage<Tr> {
     for (int c = 0; c < S; ++c) sum.c[c] = 0;
     T weight = 0;
     V offset{};
-    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const T kernel = p.kernel.value(square_root(r2));
       weight += kernel;
       add_scaled(offset, kernel, r);
@@ -723,7 +760,7 @@ struct WaterShift : Pass<Tr> {
       V gradient{};
       T divergence = 0;
       const auto of = [&](const auto& view, const auto& volume) {
-        this->for_each_near(view, cell, x, [&](int j, const V& r, T r2) {
+        this->for_each_near(view, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
           const T f = volume(j) * this->parameters.kernel.gradient(Distance<T>(r2));
           add_scaled(gradient, f, r);
           divergence -= f * r2;
@@ -754,9 +791,53 @@ LGIW_FN typename Tr::T absorbing_rate(const Parameters<Tr>& p, double x, double 
   return p.absorbing_rate * T(depth * depth);
 }
 
+/// Acceleration of a water particle by water, per unit of mass. A pass of its own where each pair is computed
+/// once: it leaves the sums in a.
+template <class Tr>
+struct WaterPairForces : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+
+  template <class F>
+  void reads(F&& f) {
+    auto& w = this->copies.water;
+    f(w, w.v, w.excess, w.term);
+  }
+  template <class F>
+  void sums(F&& f) {
+    f(this->copies.water.a);
+  }
+  LGIW_FN Limits<T> operator()(int i) const {
+    const auto& w = this->water;
+    T mu_max = 0;
+    B::add(w.a, i, T(1), over_water(i, this->cell_of(w, i), B::load(w.x, i), B::load(w.v, i), mu_max));
+    return {T(0), mu_max};
+  }
+  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max) const {
+    const auto& w = this->nearby().water;
+    const auto kernel = this->parameters.kernel;
+    const auto viscosity = this->parameters.water_viscosity;
+    const T rho0 = this->parameters.eos.rho0, term_i = this->water.term[i], rho_i = rho0 + this->water.excess[i];
+    V a{};
+    T mu = 0;
+    this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
+      const V v_ij = v - B::load(w.v, j);
+      const auto viscous = viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + w.excess[j]));
+      const T f = kernel.gradient(Distance<T>(r2));
+      mu = largest(mu, f < 0 ? std::fabs(viscous.mu) : T(0));
+      const T push = -(term_i + w.term[j] + viscous.pi) * f;
+      add_scaled(a, push, r);
+      if constexpr (Tr::pairs_once) B::add(w.a, j, -push, r);
+    });
+    mu_max = largest(mu_max, mu);
+    return a;
+  }
+};
+
 /// Acceleration of a water particle.
 template <class Tr>
-struct WaterForces : Pass<Tr> {
+struct WaterForces : WaterPairForces<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
   using V = typename B::V;
@@ -765,7 +846,7 @@ struct WaterForces : Pass<Tr> {
   template <class F>
   void reads(F&& f) {
     auto& near = this->copies;
-    f(near.water, near.water.v, near.water.excess, near.water.term);
+    if (!Tr::pairs_once) WaterPairForces<Tr>::reads(f);
     f(near.wall, near.wall.weight, near.wall.excess, near.wall.term);
     f(near.bodies, near.bodies.weight, near.bodies.excess, near.bodies.term, near.bodies.own_v);
     if (this->parameters.water_slips) f(near.wall, near.wall.normal), f(near.bodies, near.bodies.normal);
@@ -775,7 +856,7 @@ struct WaterForces : Pass<Tr> {
   template <bool slips, class Walls>
   LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
     const auto& p = this->parameters;
-    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
+    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const V v_ib = B::relative(v, b, j);
       T vr;
       if constexpr (slips)
@@ -801,16 +882,8 @@ struct WaterForces : Pass<Tr> {
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
-    V a{};
     T mu_max = 0;
-    const auto& near = this->nearby().water;
-    this->for_each_near(near, cell, x, [&](int j, const V& r, T r2) {
-      const V v_ij = v - B::load(near.v, j);
-      const auto viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + near.excess[j]));
-      const T f = p.kernel.gradient(Distance<T>(r2));
-      mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
-      add_scaled(a, -(term_i + near.term[j] + viscous.pi) * f, r);
-    });
+    V a = Tr::pairs_once ? B::load(w.a, i) : this->over_water(i, cell, x, v, mu_max);
     if (p.water_slips)
       over_all_walls<true>(cell, x, v, term_i, rho_i, a);
     else
@@ -818,7 +891,7 @@ struct WaterForces : Pass<Tr> {
     a = p.water_mass * a;
     if (this->soil.n) {
       const auto& s = this->nearby().soil;
-      this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
+      this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
         const V v_ij = v - B::load(s.v, j);
         const Distance<T> distance(r2);
         const auto viscous = p.water_viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + s.image_excess[j]));
@@ -834,9 +907,73 @@ struct WaterForces : Pass<Tr> {
   }
 };
 
+/// Acceleration of a soil particle by soil, per unit of mass. A pass of its own where each pair is computed once:
+/// it leaves the sums in a.
+template <class Tr>
+struct SoilPairForces : Pass<Tr> {
+  using B = Pass<Tr>;
+  using T = typename Tr::T;
+  using V = typename B::V;
+  static constexpr int D = Tr::D, S = Tr::S;
+
+  template <class F>
+  void reads(F&& f) {
+    auto& s = this->copies.soil;
+    f(s, s.v, s.stress, s.artificial);
+  }
+  template <class F>
+  void sums(F&& f) {
+    f(this->copies.soil.a);
+  }
+  LGIW_FN Limits<T> operator()(int i) const {
+    const auto& s = this->soil;
+    T mu_max = 0;
+    B::add(s.a, i, T(1), over_soil(i, this->cell_of(s, i), B::load(s.x, i), B::load(s.v, i), mu_max));
+    return {T(0), mu_max};
+  }
+  LGIW_FN V over_soil(int i, int cell, const V& x, const V& v, T& mu_max) const {
+    return this->parameters.artificial_stress > 0 ? over_soil<true>(i, cell, x, v, mu_max)
+                                                  : over_soil<false>(i, cell, x, v, mu_max);
+  }
+  template <bool artificial>
+  LGIW_FN V over_soil(int i, int cell, const V& x, const V& v, T& mu_max) const {
+    const auto& s = this->nearby().soil;
+    const auto kernel = this->parameters.kernel;
+    const auto viscosity = this->parameters.soil_viscosity;
+    const T rho = this->parameters.soil_density, inverse_rho2 = 1 / (rho * rho);
+    const T inverse_w_dp = this->parameters.inverse_w_dp;
+    const Stress<T, D> sigma = B::load_stress(this->soil.stress, i);
+    const Stress<T, D> own = artificial ? B::load_stress(this->soil.artificial, i) : Stress<T, D>{};
+    V a{};
+    T mu = 0;
+    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
+      const V v_ij = v - B::load(s.v, j);
+      const auto viscous = viscosity(dot(v_ij, r), r2, rho);
+      const Distance<T> distance(r2);
+      const T f = kernel.gradient(distance);
+      mu = largest(mu, f < 0 ? std::fabs(viscous.mu) : T(0));
+      Stress<T, D> sum;
+      LGIW_COMPONENTS
+      for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
+      if constexpr (artificial) {
+        const T ratio = kernel.value(distance.r) * inverse_w_dp;
+        const T weight = std::pow(ratio, T(2.55));  // F^n, n = 2.55
+        LGIW_COMPONENTS
+        for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
+      }
+      V force = f * apply(sum, r);
+      add_scaled(force, -f * viscous.pi, r);
+      add_scaled(a, T(1), force);
+      if constexpr (Tr::pairs_once) B::add(s.a, j, T(-1), force);
+    });
+    mu_max = largest(mu_max, mu);
+    return a;
+  }
+};
+
 /// Acceleration of a soil particle. `coulomb` compiles in walls with Coulomb friction.
 template <class Tr, bool coulomb>
-struct SoilForces : Pass<Tr> {
+struct SoilForces : SoilPairForces<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
   using V = typename B::V;
@@ -845,35 +982,11 @@ struct SoilForces : Pass<Tr> {
   template <class F>
   void reads(F&& f) {
     auto& near = this->copies;
-    f(near.soil, near.soil.v, near.soil.stress, near.soil.artificial);
+    if (!Tr::pairs_once) SoilPairForces<Tr>::reads(f);
     f(near.wall, near.wall.normal, near.wall.slip, near.wall.weight, near.wall.stress, near.wall.friction);
     f(near.bodies, near.bodies.normal, near.bodies.slip, near.bodies.weight, near.bodies.stress, near.bodies.friction,
       near.bodies.own_v);
     f(near.water, near.water.v, near.water.excess, near.water.term);
-  }
-
-  template <bool artificial>
-  LGIW_FN void over_soil(int i, int cell, const V& x, const V& v, const Stress<T, D>& sigma, V& a, T& mu_max) const {
-    const auto& p = this->parameters;
-    const auto& s = this->nearby().soil;
-    const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
-    const Stress<T, D> own = artificial ? B::load_stress(this->soil.artificial, i) : Stress<T, D>{};
-    this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) {
-      const V v_ij = v - B::load(s.v, j);
-      const auto viscous = p.soil_viscosity(dot(v_ij, r), r2, p.soil_density);
-      const Distance<T> distance(r2);
-      const T f = p.kernel.gradient(distance);
-      mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
-      Stress<T, D> sum;
-      for (int c = 0; c < S; ++c) sum.c[c] = (sigma.c[c] + s.stress[c][j]) * inverse_rho2;
-      if constexpr (artificial) {
-        const T ratio = p.kernel.value(distance.r) * p.inverse_w_dp;
-        const T weight = std::pow(ratio, T(2.55));  // F^n, n = 2.55
-        for (int c = 0; c < S; ++c) sum.c[c] += weight * (own.c[c] + s.artificial[c][j]);
-      }
-      add_scaled(a, f, apply(sum, r));
-      add_scaled(a, -f * viscous.pi, r);
-    });
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -883,12 +996,8 @@ struct SoilForces : Pass<Tr> {
     const int cell = this->cell_of(s, i);
     const V x = B::load(s.x, i), v = B::load(s.v, i);
     const Stress<T, D> sigma = B::load_stress(s.stress, i);
-    V a{};
     T mu_max = 0;
-    if (p.artificial_stress > 0)
-      over_soil<true>(i, cell, x, v, sigma, a, mu_max);
-    else
-      over_soil<false>(i, cell, x, v, sigma, a, mu_max);
+    V a = Tr::pairs_once ? B::load(s.a, i) : this->over_soil(i, cell, x, v, mu_max);
     WallForce walls{};
     if (this->wall.n) of_walls(this->nearby().wall, cell, x, v, sigma, walls);
     if (this->bodies.n) of_walls(this->nearby().bodies, cell, x, v, sigma, walls);
@@ -898,7 +1007,7 @@ struct SoilForces : Pass<Tr> {
       const auto& w = this->nearby().water;
       const T image_term = s.image_term[i], rho_image = p.eos.rho0 + s.image_excess[i], rho0 = p.eos.rho0;
       V sum{};
-      this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) {
+      this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
         // the law is written for water minus soil: odd in r
         const V v_ij = v - B::load(w.v, j);
         const Distance<T> distance(r2);
@@ -925,7 +1034,7 @@ struct SoilForces : Pass<Tr> {
     const auto& p = this->parameters;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);
     const T viscosity_on = p.wall_viscosity ? T(1) : T(0);
-    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) {
+    this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const V n = B::load(b.normal, j), v_ib = B::relative(v, b, j);
       const T slip = b.slip[j];
       const T vr = approach_to_wall(v_ib, r, n, slip);

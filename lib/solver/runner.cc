@@ -110,7 +110,8 @@ class Runner {
         header_(data.header),
         options_(options),
         model_(make_model(c, data)),
-        map_(make_map(c, data.header)) {
+        map_(make_map(c, data.header)),
+        surface_map_(map_, header_.bed) {
     const double frames = c.output.frame_interval;
     surface_interval_ = c.output.surface_interval > 0 ? c.output.surface_interval : frames / 10;
     per_frame_ = std::max<int64_t>(1, std::llround(frames / surface_interval_));
@@ -337,7 +338,7 @@ class Runner {
       (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] =
           side % 2 ? header_.high[side / 2] : header_.low[side / 2];
     }
-    const ColumnSurfaces surfaces = column_surfaces(columns, map_, header_.bed);
+    const ColumnSurfaces surfaces = surface_map_(columns);
     writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil,
                          water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
@@ -533,6 +534,7 @@ class Runner {
   RunOptions options_;
   ModelParameters model_;
   SurfaceMap map_;
+  ColumnSurfaceMap surface_map_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<RunWriter> writer_;
   std::vector<float> initial_soil_, initial_elevation_;

@@ -21,10 +21,125 @@ template <class Bytes>
 struct TileMemory {
   Bytes copies;                           // grows to what the fullest tile needs
   std::vector<std::pair<int, int>> rows;  // of cells, [first, last)
+  std::vector<int> index;                 // of the copied particles, where sums go back to them
 
   void* take(std::size_t bytes) {
     if (bytes > copies.size()) copies = Bytes(bytes + bytes / 2);
     return copies.data();
+  }
+};
+
+/// Which cells may hold something near a box.
+template <class T, int D>
+class NearCells {
+ public:
+  NearCells(const Grid<T, D>& grid, T h)
+      : grid_(grid), reach_(T(2 * margin) * h), steps_(double(reach_) * grid.inverse_width) {}
+
+  T reach() const { return reach_; }
+  NearBox<T, D> box_of(const T* const* x, int begin, int end) const {
+    NearBox<T, D> box;
+    for (int k = 0; k < D; ++k) {
+      box.low[k] = box.high[k] = x[k][begin];
+      for (int i = begin + 1; i < end; ++i) {
+        box.low[k] = smallest(box.low[k], x[k][i]);
+        box.high[k] = largest(box.high[k], x[k][i]);
+      }
+    }
+    box.reach2 = reach_ * reach_;
+    return box;
+  }
+  /// Ranges of cells [first, last) from number `from` on that hold everything near the box there.
+  void find_rows(const NearBox<T, D>& box, int from, std::vector<std::pair<int, int>>& rows) const {
+    rows.clear();
+    const Slabs along(*this, box, grid_.order[0]), across(*this, box, grid_.order[1]);
+    const auto in_plane = [&](double square, int before) {
+      for (int b = across.first; b <= across.last; ++b) {
+        const double rest = square - across.square(b);
+        if (rest <= 0) continue;
+        const double chord = std::sqrt(rest);
+        const int row = before + b * across.stride;
+        const int first = row + along.held(along.low - chord), last = row + along.held(along.high + chord) + 1;
+        if (last > from) rows.push_back({std::max(first, from), last});
+      }
+    };
+    const double square = steps_ * steps_;
+    if constexpr (D == 2) {
+      in_plane(square, 0);
+    } else {
+      const Slabs slowest(*this, box, grid_.order[2]);
+      for (int c = std::max(slowest.first, from / slowest.stride); c <= slowest.last; ++c) {
+        const double rest = square - slowest.square(c);
+        if (rest > 0) in_plane(rest, c * slowest.stride);
+      }
+    }
+  }
+  /// No cell near a tile has a number larger than that of the tile by more than this.
+  int furthest() const {
+    int sum = 0;
+    for (int k = 0; k < D; ++k) sum += (int(steps_) + 1) * grid_.stride[k];
+    return sum;
+  }
+
+ private:
+  // Rates are taken half a step ago: pairs that have just left the support still count.
+  static constexpr double margin = 1.005;
+
+  /// The box and what is near it along one axis, in widths of a cell.
+  struct Slabs {
+    double low, high;
+    int n, stride, first, last;
+    Slabs(const NearCells& near, const NearBox<T, D>& box, int k)
+        : low((double(box.low[k]) - near.grid_.low[k]) * near.grid_.inverse_width),
+          high((double(box.high[k]) - near.grid_.low[k]) * near.grid_.inverse_width),
+          n(near.grid_.n[k]),
+          stride(near.grid_.stride[k]),
+          first(held(low - near.steps_)),
+          last(held(high + near.steps_)) {}
+    int held(double u) const { return u < 0 ? 0 : (u >= n - 1 ? n - 1 : int(u)); }
+    /// Of the distance of slab c from the box.
+    double square(int c) const {
+      const double d = std::max(c - high, low - c - 1);
+      return d > 0 ? d * d : 0;
+    }
+  };
+
+  const Grid<T, D> grid_;
+  T reach_;
+  double steps_;  // reach in widths of a cell
+};
+
+/// Fields of one phase and their copies.
+template <class Tr>
+struct CopiedPhase {
+  using T = typename Tr::T;
+  static constexpr int D = Tr::D, most_fields = 32;
+  int* n = nullptr;  // of the view that holds the copies
+  const int* start = nullptr;
+  const unsigned char* cells_near = nullptr;
+  int fields = 0;
+  T** slot[most_fields];  // pointers of the view
+  const T* from[most_fields];
+
+  template <class U>
+  void add(U*& field) {
+    if (!field) return;
+    slot[fields] = const_cast<T**>(&field);
+    from[fields++] = field;
+  }
+  template <class U, int size>
+  void add(U* (&list)[size]) {
+    for (int k = 0; k < size; ++k) add(list[k]);
+  }
+  static std::size_t whole_vectors(std::size_t n) { return (n + widest_lanes - 1) / widest_lanes * widest_lanes; }
+  /// Copies from the one at `end` up to whole vectors: particles beyond everyone's support.
+  int fill_up(T* const* copies, int end, const NearBox<T, D>& box, T reach) const {
+    const int whole = int(whole_vectors(std::size_t(end)));
+    for (int f = 0; f < fields; ++f) {
+      const T value = f == 0 ? box.low[0] - 2 * reach : (f < D ? box.low[f] : T(0));
+      for (int j = end; j < whole; ++j) copies[f][j] = value;
+    }
+    return whole;
   }
 };
 
@@ -36,8 +151,7 @@ class Neighbourhood {
   static constexpr int D = Tr::D;
 
   template <class Pass>
-  Neighbourhood(Pass& pass, Memory& memory)
-      : grid_(pass.grid), memory_(memory), reach_(T(2 * margin) * pass.parameters.h) {
+  Neighbourhood(Pass& pass, Memory& memory) : near_(pass.grid, pass.parameters.h), memory_(memory) {
     pass.copies.water = pass.water, pass.copies.soil = pass.soil, pass.copies.wall = pass.wall;
     pass.copies.bodies = pass.bodies;
     pass.reads(*this);
@@ -53,123 +167,133 @@ class Neighbourhood {
     if (!phase) {
       if (!view.n) return;
       phase = &phase_[phases_++];
-      phase->n = &view.n, phase->start = view.start, phase->fields = 0;
-      add(*phase, view.x);
+      phase->n = &view.n, phase->start = view.start, phase->cells_near = view.cells_near;
+      phase->add(view.x);
     }
-    (add(*phase, fields), ...);
+    (phase->add(fields), ...);
   }
   void clear() {
     for (int k = 0; k < phases_; ++k) *phase_[k].n = 0;
   }
-  /// Copies what lies near the particles [begin, end) at x.
-  void look(const T* const* x, int begin, int end) {
-    const NearBox<T, D> box = box_of(x, begin, end);
-    find_rows(box);
+  /// Copies what lies near the particles [begin, end) of `cell` at x.
+  void look(int cell, const T* const* x, int begin, int end) {
+    clear();
+    const auto absent = [&](const Phase& phase) { return phase.cells_near && !phase.cells_near[cell]; };
+    if (std::all_of(phase_.begin(), phase_.begin() + phases_, absent)) return;
+    const NearBox<T, D> box = near_.box_of(x, begin, end);
+    near_.find_rows(box, 0, memory_.rows);
     std::size_t room[phases], total = 0;
     for (int k = 0; k < phases_; ++k) {
+      room[k] = 0;
+      if (absent(phase_[k])) continue;
       std::size_t candidates = 0;
       for (const auto& [first, last] : memory_.rows) candidates += phase_[k].start[last] - phase_[k].start[first];
-      room[k] = (candidates / widest_lanes + 2) * widest_lanes;
+      room[k] = Phase::whole_vectors(candidates) + widest_lanes;
       total += room[k] * phase_[k].fields;
     }
     T* to = static_cast<T*>(memory_.take(total * sizeof(T)));
     for (int k = 0; k < phases_; ++k) {
       Phase& phase = phase_[k];
-      T* copies[most_fields];
+      if (absent(phase)) continue;
+      T* copies[Phase::most_fields];
       for (int f = 0; f < phase.fields; ++f, to += room[k]) *phase.slot[f] = copies[f] = to;
       int n = 0;
       for (const auto& [first, last] : memory_.rows)
         n = copy_near<Tr::Machine::lanes>(box, phase.fields, phase.from, phase.start[first], phase.start[last], copies,
                                           n);
-      *phase.n = fill_up(phase, copies, n, box);
+      *phase.n = phase.fill_up(copies, n, box, near_.reach());
     }
   }
 
  private:
-  static constexpr int phases = 4, most_fields = 32;
-  // Rates are taken half a step ago: pairs that have just left the support still count.
-  static constexpr double margin = 1.005;
-  struct Phase {
-    int* n;
-    const int* start;
-    int fields;
-    T** slot[most_fields];
-    const T* from[most_fields];
-  };
+  using Phase = CopiedPhase<Tr>;
+  static constexpr int phases = 4;
 
-  NearBox<T, D> box_of(const T* const* x, int begin, int end) const {
-    NearBox<T, D> box;
-    for (int k = 0; k < D; ++k) {
-      box.low[k] = box.high[k] = x[k][begin];
-      for (int i = begin + 1; i < end; ++i) {
-        box.low[k] = smallest(box.low[k], x[k][i]);
-        box.high[k] = largest(box.high[k], x[k][i]);
-      }
-    }
-    box.reach2 = reach_ * reach_;
-    return box;
-  }
-  /// Up to whole vectors: particles beyond everyone's support.
-  int fill_up(const Phase& phase, T* const* copies, int n, const NearBox<T, D>& box) const {
-    const int whole = (n + widest_lanes - 1) / widest_lanes * widest_lanes;
-    for (int f = 0; f < phase.fields; ++f) {
-      const T value = f == 0 ? box.low[0] - 2 * reach_ : (f < D ? box.low[f] : T(0));
-      for (int j = n; j < whole; ++j) copies[f][j] = value;
-    }
-    return whole;
-  }
-
-  template <class U>
-  void add(Phase& phase, U*& field) {
-    if (!field) return;
-    phase.slot[phase.fields] = const_cast<T**>(&field);
-    phase.from[phase.fields++] = field;
-  }
-  template <class U, int size>
-  void add(Phase& phase, U* (&fields)[size]) {
-    for (int k = 0; k < size; ++k) add(phase, fields[k]);
-  }
-
-  /// Ranges of cells [first, last) that hold everything near the box.
-  void find_rows(const NearBox<T, D>& box) {
-    auto& rows = memory_.rows;
-    rows.clear();
-    const double width = 1 / grid_.inverse_width, reach = double(reach_);
-    int first[D], last[D];
-    for (int k = 1; k < D; ++k)
-      first[k] = coordinate(double(box.low[k]) - reach, k), last[k] = coordinate(double(box.high[k]) + reach, k);
-    const auto distance = [&](int c, int k) {  // of a slab of cells from the box
-      const double low = grid_.low[k] + c * width;
-      return std::max({0.0, low - double(box.high[k]), double(box.low[k]) - low - width});
-    };
-    const auto row = [&](double square, int before) {
-      if (square >= reach * reach) return;
-      const double chord = std::sqrt(reach * reach - square);
-      rows.push_back({before + coordinate(double(box.low[0]) - chord, 0),
-                      before + coordinate(double(box.high[0]) + chord, 0) + 1});
-    };
-    for (int c = first[D - 1]; c <= last[D - 1]; ++c) {
-      const double d = distance(c, D - 1);
-      if constexpr (D == 2) {
-        row(d * d, c * grid_.n[0]);
-      } else {
-        for (int b = first[1]; b <= last[1]; ++b) {
-          const double e = distance(b, 1);
-          row(d * d + e * e, (c * grid_.n[1] + b) * grid_.n[0]);
-        }
-      }
-    }
-  }
-  int coordinate(double x, int k) const {
-    const double c = (x - grid_.low[k]) * grid_.inverse_width;
-    return c < 0 ? 0 : (c >= grid_.n[k] - 1 ? grid_.n[k] - 1 : int(c));
-  }
-
-  const Grid<T, D> grid_;
+  const NearCells<T, D> near_;
   Memory& memory_;
-  T reach_;
   int phases_ = 0;
   std::vector<Phase> phase_ = std::vector<Phase>(phases);
+};
+
+/// What a pass over the pairs of one phase finds near a tile and has not met before: the tile itself, whose particles
+/// look at each other from either side, and then those of later cells near it, each pair once. What the tile adds to
+/// the latter is gathered beside the copies and handed back by give_back(); what it adds to itself there is dropped.
+template <class Tr, class Memory>
+class PairNeighbourhood {
+ public:
+  using T = typename Tr::T;
+  static constexpr int D = Tr::D;
+
+  template <class Pass>
+  PairNeighbourhood(Pass& pass, Memory& memory) : near_(pass.grid, pass.parameters.h), memory_(memory) {
+    pass.copies.water = pass.water, pass.copies.soil = pass.soil;
+    pass.reads(*this);
+    pass.sums([&](auto& field) { add_sum(field); });
+  }
+  template <class View, class... Fields>
+  void operator()(View& view, Fields&... fields) {
+    phase_.n = &view.n, phase_.start = view.start;
+    phase_.add(view.x);
+    (phase_.add(fields), ...);
+  }
+  const NearCells<T, D>& cells() const { return near_; }
+  /// Copies what lies near the particles of `cell`.
+  void look(int cell) {
+    const int begin = phase_.start[cell], end = phase_.start[cell + 1];
+    const NearBox<T, D> box = near_.box_of(phase_.from, begin, end);
+    near_.find_rows(box, cell + 1, memory_.rows);
+    std::size_t candidates = std::size_t(end - begin);
+    for (const auto& [first, last] : memory_.rows) candidates += phase_.start[last] - phase_.start[first];
+    const std::size_t room = Phase::whole_vectors(candidates) + widest_lanes;
+    T* to = static_cast<T*>(memory_.take(room * (phase_.fields + sums_) * sizeof(T)));
+    if (memory_.index.size() < room) memory_.index.resize(room);
+    T* copies[Phase::most_fields];
+    for (int f = 0; f < phase_.fields; ++f, to += room) *phase_.slot[f] = copies[f] = to;
+    for (int f = 0; f < phase_.fields; ++f)
+      for (int i = begin; i < end; ++i) copies[f][i - begin] = phase_.from[f][i];
+    first_ = last_ = end - begin;
+    for (const auto& [first, last] : memory_.rows)
+      last_ = copy_near<Tr::Machine::lanes>(box, phase_.fields, phase_.from, phase_.start[first], phase_.start[last],
+                                            copies, last_, memory_.index.data());
+    *phase_.n = phase_.fill_up(copies, last_, box, near_.reach());
+    for (int f = 0; f < sums_; ++f, to += room) {
+      *sum_slot_[f] = to;
+      std::fill(to, to + *phase_.n, T(0));
+    }
+  }
+  void clear_sums(int i) const {
+    for (int f = 0; f < sums_; ++f) sum_to_[f][i] = 0;
+  }
+  void give_back() const {
+    const int* index = memory_.index.data();
+    for (int f = 0; f < sums_; ++f) {
+      T* to = sum_to_[f];
+      const T* from = *sum_slot_[f];
+      for (int j = first_; j < last_; ++j) to[index[j]] += from[j];
+    }
+  }
+
+ private:
+  using Phase = CopiedPhase<Tr>;
+  static constexpr int most_sums = 8;
+
+  template <class U>
+  void add_sum(U*& field) {
+    sum_slot_[sums_] = &field;
+    sum_to_[sums_++] = field;
+  }
+  template <class U, int size>
+  void add_sum(U* (&list)[size]) {
+    for (int k = 0; k < size; ++k) add_sum(list[k]);
+  }
+
+  const NearCells<T, D> near_;
+  Memory& memory_;
+  int first_ = 0, last_ = 0, sums_ = 0;  // copies of later cells [first_, last_)
+  T** sum_slot_[most_sums];
+  T* sum_to_[most_sums];
+  std::vector<Phase> phases_ = std::vector<Phase>(1);
+  Phase& phase_ = phases_[0];
 };
 
 }  // namespace lgiw
