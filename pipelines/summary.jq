@@ -1,20 +1,7 @@
-# One page from summary.json: jq -r --arg uncertainty "a line" -f summary.jq summary.json
-def fixed($digits): # a number with so many decimals; jq 1.6 has no printf
-  if . == null then "-"
-  else pow(10; $digits) as $p | (. * $p | round) as $n | ($n | fabs) as $a
-    | (if $n < 0 then "-" else "" end) + ($a / $p | floor | tostring)
-    + (if $digits == 0 then "" else "." + (($a % $p + $p) | tostring | .[1:]) end)
-  end;
+# One page from summary.json: jq -r -L FOLDER --arg uncertainty "a line" -f summary.jq summary.json
+include "numbers";
 def pad($width): (" " * ([$width - length, 0] | max) // "") + .;
 def fill($width): . + (" " * ([$width - length, 0] | max) // "");
-def thousands: tostring | [match("\\d{1,3}(?=(\\d{3})*$)"; "g").string] | join(",");
-def scientific: # two significant digits
-  if . == null then "-" elif . == 0 then "0"
-  else (fabs | log10 | floor) as $e | (. / pow(10; $e) | fixed(1)) + "e" + ($e | tostring) end;
-def short: # fewer decimals the larger: from flumes to canyons
-  if . == null then "-" elif fabs >= 10 then fixed(1) elif fabs >= 1 then fixed(2) else fixed(4) end;
-def place: if fabs >= 1000 then fixed(0) else fixed(2) end;
-def volume: if . == null then "-" elif fabs >= 1e5 then (. / 1e6 | fixed(2)) + " million m3" else short + " m3" end;
 
 "Case \(.case)",
 "",

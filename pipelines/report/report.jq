@@ -1,0 +1,172 @@
+# The report of a run as one page of HTML. Named arguments: the contents of style.css, lines of the case that call it
+# `invented`, the `date` of the run, the summary's line of `uncertainty`; the JSON files of the run by name. What a file
+# says is escaped on its way into the page (cell, text, paragraph); only this program writes markup.
+include "numbers";
+
+def text: @html "\(.)";
+# Three digits and no more than it has; volumes and the like in full.
+def amount:
+  if . == null then "-" elif . == 0 then "0" elif . < 0 then "-" + (-. | amount)
+  elif . >= 1000 then fixed(0) | thousands
+  elif . == floor then tostring
+  elif . >= 0.001 then (2 - (log10 | floor)) as $digits | fixed([$digits, 1] | max)
+  else scientific end;
+def with_unit($unit): if . == null then "-" else "\(amount) \($unit)" end;
+def percent: if . == null then "-" else "\(100 * . | if . == 0 then "0" elif fabs < 0.01 then scientific else fixed(if fabs >= 10 then 0 elif fabs >= 1 then 1 else 2 end) end) %" end;
+def paragraph: if . == null or . == "" then empty else "<p>\(text)</p>" end;
+def items: if length == 0 then empty else "<ul>", (.[] | "<li>\(text)</li>"), "</ul>" end;
+# Columns are [heading, program of a cell]; numbers stand to the right.
+def table($caption; $headings; rows):
+  [rows] as $rows
+  | if ($rows | length) == 0 then empty else
+      ([range($headings | length)] | map(. as $c | $rows | any(.[$c] | type == "number" or (type == "string" and test("^(-|-?[0-9.,]+(e-?[0-9]+)?( %|\\*)?)$"))))) as $numbers
+      | def cell($tag; $c): "<\($tag)\(if $numbers[$c] then " class=\"number\"" else "" end)>\(. // "-" | text)</\($tag)>";
+      "<div class=\"scroll\"><table><caption>\($caption | text)</caption>",
+      "<thead><tr>" + ([range($headings | length) as $c | $headings[$c] | cell("th"; $c)] | add) + "</tr></thead><tbody>",
+      ($rows[] | . as $row | "<tr>" + ([range($headings | length) as $c | $row[$c] | cell("td"; $c)] | add) + "</tr>"),
+      "</tbody></table></div>"
+    end;
+def file($name): $ARGS.named[$name][0]?;
+def figure($name; $caption): file("pictures")[$name] as $data
+  | if $data then "<figure><img src=\"\($data)\" alt=\"\($caption | text)\"><figcaption>\($caption | text)</figcaption></figure>" else empty end;
+def section($title; body): [body] | if length == 0 then empty else "<section><h2>\($title | text)</h2>", .[], "</section>" end;
+def subsection($title; body): [body] | if length == 0 then empty else "<h3>\($title | text)</h3>", .[] end;
+# JSON whose layout is not known here: lists of objects as tables, the rest as a table of names and values.
+def words: gsub("_"; " ");
+def value: if type == "number" then amount elif type == "array" then map(tostring) | join(", ") else . end;
+def generic($title):
+  if type == "array" and length > 0 and all(type == "object") then
+    (map(keys_unsorted[]) | reduce .[] as $k ([]; if index($k) then . else . + [$k] end)) as $keys
+    | table($title; $keys | map(words); .[] | [.[$keys[]] | if type == "object" then tostring else value end])
+  elif type == "object" then
+    (to_entries | map(select(.key != "provenance"))) as $entries
+    | table($title; ["quantity", "value"]; $entries[] | select(.value | type | . != "object" and . != "array") | [(.key | words), (.value | value)]),
+      ($entries[] | select(.value | type == "object" or (type == "array" and any(type == "object"))) | .key as $key | .value | generic($key | words)),
+      table($title; ["quantity", "values"]; $entries[] | select(.value | type == "array" and (length > 0) and all(type != "object")) | [(.key | words), (.value | value)])
+  else empty end;
+
+file("summary") as $s | file("run_attributes") as $run | file("particles_attributes") as $particles | file("plan") as $plan
+| file("shores") as $shores | file("zones") as $zones | file("impulse") as $impulse
+| (file("sensitivity") | if .line? == $ARGS.named.uncertainty then . else null end) as $study
+| $s.still_water_level_m as $level | ($s.dimension == 2) as $flat | $s.end_time_s as $duration
+| (($run.vertical_datum // "") | if . == "" then "the case's datum" else . end) as $datum
+| (if $flat then " (2-D; volumes are per metre of width)" else "" end) as $per_metre
+| def where: if $flat then "x \(.x | place) m" else "E \(.x | place) m, N \(.y | place) m" end;
+  # A maximum in the last fiftieth of the run may not be one.
+  def unfinished($time): $time != null and $time > 0.98 * $duration;
+  def change($quantity): if $study then ($study.rows[] | select(.quantity == $quantity) | .changes | map(.) | map(select(. != null)) | [(. + [0] | min), (. + [0] | max)]) else empty end;
+  def range_of($quantity; $value; show): [change($quantity)] | if length == 0 then "" else .[0] as $c | " (\($value + $c[0] | show) to \($value + $c[1] | show) in the sensitivity study)" end;
+  def m: with_unit("m");
+
+  ([$s.gauges[]? | select(.surface == "water" and .max_height_m != null)] | max_by(.max_height_m)) as $wave
+| ([$s.sections[]? | select(.runup_m != null)] | max_by(.runup_m)) as $section
+| ($s.warnings // []) as $warnings
+| ([$s.gauges[]? | select(.surface == "water" and unfinished(.time_of_max_s)) | .name]) as $rising
+| ($ARGS.named.invented | split("\n") | map(select(length > 0))) as $invented
+
+| "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
+"<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
+"<title>\("Landslide-generated wave: \($s.case)" | text)</title>", "<style>", $ARGS.named.style, "</style>", "</head>", "<body>",
+"<h1>\("Landslide-generated wave: \($s.case)" | text)</h1>",
+("<p class=\"meta\">\("Report of one run, computed \($ARGS.named.date) by lgiw \($s.version // "")\($per_metre). Lengths in m, times in s since the release of the slide\(if $level != null then "; heights above the still water level, \($level | amount) m above \($datum)" else "" end)." | text)</p>"),
+(if ($invented | length) > 0 then
+  "<div class=\"disclaimer\"><p><strong>Not an assessment of a real site.</strong> The case says of itself:</p>", ($invented | items), "</div>" else empty end),
+
+"<div class=\"answer\">",
+([ (if $wave then "The largest wave at the gauges is \($wave.max_height_m | m)\(range_of("max_wave_height_m"; $wave.max_height_m; m)) above still level, at \($wave.name) (\($wave | where)), \($wave.time_of_max_s | with_unit("s")) after the release." else empty end),
+   (if $zones.lake_maximum? then "In the lake as a whole the surface rises by up to \($zones.lake_maximum.height_m | m) (\($zones.lake_maximum | where))." else empty end),
+   (if $shores and ($shores | length) > 0 then "Run-up is highest on shore \($shores[0].shore): \($shores[0].runup_m | m) above still level, to \($shores[0].elevation_m | amount) m (\($shores[0] | where))." else empty end),
+   (if $section then "On the bank opposite the slide along section \($section.name) it is \($section.runup_m | m)\(range_of("runup_m"; $section.runup_m; m))." else empty end),
+   (if $zones then "\($zones.hazard_area_m2.land | add / 1e4 | amount) ha of land are flooded, \($zones.hazard_area_m2.land[2] / 1e4 | amount) ha of it more than 3 m deep." else empty end),
+   (if $s.slide_volume_m3 != null then "The slide moves \($s.slide_volume_m3 | volume)\(range_of("slide_volume_m3"; $s.slide_volume_m3; volume)), of which \($s.immersed_volume_m3 | volume)\(range_of("immersed_volume_m3"; $s.immersed_volume_m3; volume)) enter the water." else empty end),
+   (if $study then "Uncertainty: \($study.line)." else "The uncertainty of these numbers was \($ARGS.named.uncertainty | sub(";.*"; ""))." end),
+   (if ($warnings | length) > 0 then "The run gave \($warnings | length) warning\(if ($warnings | length) > 1 then "s" else "" end) that bear on them, below." else empty end),
+   (if ($rising | length) > 0 then "At \($rising | join(", ")) the surface was highest at the end of the run: the crest may not have passed." else empty end)
+ ] | join(" ") | paragraph),
+"</div>",
+
+section("Wave";
+  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds after the release\(if $s.arrival_threshold_m? then " (a change of \($s.arrival_threshold_m | m))" else "" end), shoreline at rest and limit of inundation. Isochrones are drawn through medians of 5 x 5 cells.")),
+
+section("Hazard classes";
+  figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest."),
+  (if $zones then table("Areas by class (ha)"; ["", "below 1 m", "1 m to 3 m", "above 3 m"];
+     ["land, by largest flow depth", ($zones.hazard_area_m2.land[] / 1e4 | amount)], ["lake at rest, by largest wave height", ($zones.hazard_area_m2.lake[] / 1e4 | amount)]) else empty end)),
+
+section("Run-up";
+  figure("shores"; "Highest run-up along each shore; distances from the shore's first point. Shores are numbered as on the map of the wave."),
+  (if $shores then table("Highest run-up of each shore"; ["shore", "length (m)", "run-up (m)", "elevation (m)", "distance along the shore (m)", "easting (m)", "northing (m)"];
+     $shores[] | [.shore, (.length_m | fixed(0)), (.runup_m | amount), (.elevation_m | amount), (.distance_m | fixed(0)), (.x | fixed(0)), (.y | fixed(0))]) else empty end),
+  table("Run-up along the sections, on the bank opposite the slide"; ["section", "run-up (m)", "elevation (m)", "time (s)"];
+     $s.sections[]? | select(.runup_m != null) | [.name, (.runup_m | amount), (.runup_elevation_m | amount), (.time_of_runup_s | amount)]),
+  figure("runup"; "Water's edge on the bank opposite the slide against time.")),
+
+section("Gauges";
+  ($s.gauges // [] | map(keys_unsorted[]) | unique | map(select(test("^arrival_.*m_s$")))) as $more
+  | ($s.resolution.gauge_depth_particles? // {}) as $depths
+  | table("Heights above still level on water, above the first surface on soil. Arrival: first change by the threshold. The depth at rest in particles tells how well the wave is resolved there.";
+      ["gauge", "x (m)"] + (if $flat then [] else ["y (m)"] end) + ["surface", "highest (m)", "crest (m)", "at (s)", "first trough (m)", "at (s)", "arrival (s)"]
+        + ($more | map(sub("arrival_"; "arrival ") | sub("m_s$"; " m (s)"))) + ["depth (particles)"];
+      $s.gauges[]? | . as $g | [.name, (.x | place)] + (if $flat then [] else [.y | place] end) + [.surface, (.max_elevation_m | amount), (.max_height_m | amount),
+        ((.time_of_max_s | amount) + (if .surface == "water" and unfinished(.time_of_max_s) then "*" else "" end)), (.first_trough_m | amount), (.time_of_trough_s | amount), (.arrival_s | amount)]
+        + ($more | map($g[.] | amount)) + [$depths[.name] // "-"]),
+  (if ($rising | length) > 0 then "* highest at the end of the run: the crest may not have passed." | paragraph else empty end),
+  table("Pressure gauges"; ["gauge", "highest pressure (Pa)", "at (s)"]; $s.pressure_gauges[]? | [.name, (.max_pressure_pa | amount), (.time_of_max_s | amount)]),
+  figure("gauges"; "Change of the surface at the gauges; dashed: arrival.")),
+
+section("Slide";
+  (if $s.slide_volume_m3 == null then empty else table("Slide\($per_metre)"; ["quantity", "value", "unit"];
+    (["volume that moved", ($s.slide_volume_m3 | amount), "m3"], ["of which entered the water", ($s.immersed_volume_m3 | amount), "m3"],
+     ["volume that stayed", ($s.unmoved_volume_m3 | amount), "m3"], ["volume that left the domain", ($s.lost_soil_volume_m3 | amount), "m3"],
+     ["highest speed (99th percentile of the slide)", ($s.max_slide_speed_m_s | amount), "m/s"],
+     ["run-out of the centre of mass", ($s.deposit.runout_of_centre_m? | amount), "m"], ["run-out of the front", ($s.deposit.runout_of_front_m? | amount), "m"],
+     ["direction of the run-out, from north", ($s.deposit.direction_deg? | amount), "degrees"],
+     ["length of the deposit", ($s.deposit.length_m? | amount), "m"], ["width of the deposit", ($s.deposit.width_m? | amount), "m"],
+     ["deposit above still level", ($s.deposit.height_above_water_m? | amount), "m"])
+    | select(.[1] != "-")) end),
+  figure("volumes"; "Volume of the slide, volume that entered the water, and speeds."),
+  figure("deposit-map"; "Thickness of the slide at the end of the run."),
+  figure("sections"; "Sections: ground before the slide, bed, soil and water at several times.")),
+
+section("How far to trust these numbers";
+  subsection("Expected error and warnings";
+    (($plan.expected_error? // "") | if . == "" then "" else (.[:1] | ascii_upcase) + .[1:] + "." end | paragraph),
+    (if ($warnings | length) > 0 then "<div class=\"warning\">", ($warnings | items), "</div>" else "The run gave no warning." | paragraph end),
+    ($s.resolution // {} | table("Resolution, in particles"; ["quantity", "particles"];
+      (["particle spacing \($s.particle_spacing_m | amount) m; slide thickness, median", .slide_thickness_particles.median?],
+       ["slide thickness, thinnest tenth", .slide_thickness_particles.tenth?], ["greatest depth of the water", .water_depth_particles?]) | select(.[1] != null)))),
+  subsection("Energy and error budget";
+    figure("energy"; "Energy of the scene\(if $flat then " per metre of width" else "" end): what the fall releases, what moves, what is lost to friction, breaking and the sides."),
+    ($s.error_budget // {} | table("Error budget of the run"; ["quantity", "value"];
+      (["mass: created or lost / total", (.mass_residual | scientific)], ["momentum: residual of internal forces / sum of forces", (.momentum_residual | scientific)],
+       ["energy created / released (or weight x spacing, where more)", (.energy_created | percent)], ["energy released", (if .energy_released_J == null then "-" else "\(.energy_released_J | scientific) J" end)],
+       ["density error of the water, 99.9th percentile", (.density_error_p999 | percent)], ["density error of the water, largest", (.density_error | percent)],
+       ["Mach number (fastest particle / speed of sound)", (.mach_number | amount)], ["particles of one phase within the other, share", (.interpenetrating_share | percent)],
+       ["particles below the bed", .below_bed], ["particles that left the domain: water, soil", (if $s.lost then "\($s.lost.water), \($s.lost.soil)" else "-" end)])
+      | select(.[1] != null and .[1] != "-")))),
+  subsection("Sensitivity";
+    (if $study then table("Changes against the run as it is; friction: \($study.sources.friction), level: \($study.sources.level), numerical error: \($study.sources.numerical)";
+       ["quantity", "this run", "unit", "lowest", "highest", "friction", "level", "numerical error", "dominated by"];
+       $study.rows[] | . as $r | [.label, (.value | amount), .unit] + ([change(.quantity)][0] | map($r.value + . | amount)) +
+         [(.percent.friction, .percent.level, .percent.numerical | if . == null then "-" else "\(fixed(1)) %" end), .dominates])
+     else "Not studied: \($ARGS.named.uncertainty | sub("^not studied;? ?"; ""))" | paragraph end))),
+
+(if $impulse then section("Empirical cross-check"; $impulse | generic("Empirical relations for impulse waves, against this run")) else empty end),
+
+section("Provenance";
+  ([$particles.provenance, $run.provenance | select(. != null and . != "") | fromjson? | select(.tool)] + [($s.provenance // {})[]]) as $made
+  | table("Model"; ["item", "value"];
+      (["particles", "water \($s.particles.water | thousands), soil \($s.particles.soil | thousands), wall \($s.particles.wall | thousands); spacing \($s.particle_spacing_m | amount) m"],
+       ["numerics", "\($s.model // ""); scheme \($s.scheme // "-"), kernel \($s.kernel // "-"), h/dp \($s.h_over_dp // "-"), \($s.integrator // "-"), CFL \($s.cfl // "-")"],
+       ["speed of sound of the water", ($s.sound_speed_m_s | with_unit("m/s"))],
+       ["run", "\($s.steps | thousands) steps to \($duration | amount) s in \($s.wall_time_s | fixed(0)) s on \($s.device // "-"), \($s.threads // "-") threads"],
+       ["coordinates", (($run.crs // "") | if . == "" then "none" else capture("^[A-Z]+\\[\"(?<n>[^\"]*)\"").n? // "as in the case" end)], ["vertical datum", $datum])),
+    subsection("Commands and versions"; $made[] | "<p>\("\(.tool) \(.version)" | text)<br><code>\(.command_line | text)</code></p>"),
+    table("Inputs"; ["file", "SHA-256"]; [$made[].inputs[]?] | unique_by(.path)[] | [.path, .sha256]),
+    (if ($run.case_text // "") == "" then empty else subsection("The case"; "<pre>\($run.case_text | text)</pre>") end)),
+
+section("Left out";
+  (if ($s.left_out // [] | length) > 0 then "Not part of this run (with the memory that each would take):" | paragraph, ($s.left_out | items)
+   else "No part of the model was left out." | paragraph end),
+  (if ($s.particles.left_out // 0) > 0 then "\($s.particles.left_out | thousands) wall particles that nothing can reach were left out." | paragraph else empty end)),
+"</body>", "</html>"
