@@ -19,28 +19,32 @@ $(work)/shore-runup.txt: $(work)/shores.geojson
 	@jq -r '.features | group_by(.properties.shore)[] | (sort_by(.properties.distance_m)[].properties | "\(.shore) \(.distance_m) \(.runup_m // "NaN")"), ""' $< > $@
 
 $(work)/shoreline-at-rest.txt: $(work)/wave.styled $(report)/lines.jq
-	@ogr2ogr -f GeoJSON /vsistdout/ $(out)/wave.gpkg shoreline | jq -r --arg shortest 0 --arg shortest_ring 0 -f $(report)/lines.jq > $@
+	@ogr2ogr -f GeoJSON /vsistdout/ $(out)/wave.gpkg shoreline | jq -r --arg shortest 0 -f $(report)/lines.jq > $@
 
 $(work)/inundation.txt: $(work)/wave.styled $(report)/lines.jq
 	@ogr2ogr -f GeoJSON /vsistdout/ $(out)/wave.gpkg -dialect sqlite -sql 'SELECT ST_Union(geom) FROM inundation' \
-	  | jq -r --arg shortest 0 --arg shortest_ring 0 -f $(report)/lines.jq > $@
+	  | jq -r --arg shortest 0 -f $(report)/lines.jq > $@
 
-# A surface that moves by the threshold for another reason than the wave leaves specks in the arrival times: medians of
-# 5 x 5 cells, where none counts as late, are free of most. Isochrones shorter than 12 cells say nothing on a map; rings
-# shorter than 60 are about specks.
+# Medians of 5 x 5 cells, where no arrival counts as late, smooth the times; isochrones shorter than 12 cells say nothing.
+# GDAL complains where a raster has no value and so no range.
+range = gdalinfo -json -mm $(1) 2> /dev/null
 cell = $$(gdalinfo -json $(1) | jq '.geoTransform[1] * $(2)')
-$(work)/isochrones.geojson: $(out)/arrival.tif $(work)/wave.styled
+$(work)/arrival-median.tif: $(out)/arrival.tif | $(work)
 	@gdalwarp -q -overwrite -srcnodata nan -dstnodata 1e9 $< $(work)/arrival-late.tif
-	@gdalwarp -q -overwrite -r med -tr $(call cell,$<,5) $(call cell,$<,5) -srcnodata None -dstnodata None $(work)/arrival-late.tif $(work)/arrival-median.tif
-	@gdalwarp -q -overwrite -r bilinear -tr $(call cell,$<,1) $(call cell,$<,1) -srcnodata 1e9 -dstnodata nan $(work)/arrival-median.tif $(work)/arrival-smooth.tif
+	@gdalwarp -q -overwrite -r med -tr $(call cell,$<,5) $(call cell,$<,5) -srcnodata None -dstnodata None $(work)/arrival-late.tif $@
+
+$(work)/isochrones.geojson: $(work)/arrival-median.tif $(report)/arrival.awk $(work)/wave.styled
+	@gdal_translate -q -of XYZ $< /vsistdout/ | awk -v none=1e9 -f $(report)/arrival.awk > $(work)/arrival-wave.xyz
+	@gdalwarp -q -overwrite -ot Float32 -r bilinear -tr $(call cell,$(out)/arrival.tif,1) $(call cell,$(out)/arrival.tif,1) -srcnodata 1e9 -dstnodata nan \
+	  $(work)/arrival-wave.xyz $(work)/arrival-smooth.tif
 	@rm -f $(work)/contours.gpkg
-	@latest=$$(gdalinfo -json -mm $(work)/arrival-smooth.tif | jq '.bands[0].computedMax // 1'); \
+	@latest=$$($(call range,$(work)/arrival-smooth.tif) | jq '.bands[0].computedMax // 1'); \
 	gdal_contour -q -f GPKG -a value -i $$(jq -n "$$latest / 8 | . as \$$s | pow(10; log10 | floor) as \$$p | [1, 2, 5, 10] | map(select(. * \$$p >= \$$s))[0] * \$$p") \
 	  $(work)/arrival-smooth.tif $(work)/contours.gpkg -nln contour
 	@ogr2ogr -f GeoJSON -clipsrc $(out)/wave.gpkg -clipsrclayer inundation /vsistdout/ $(work)/contours.gpkg contour > $@
 
 $(work)/isochrones.txt: $(work)/isochrones.geojson $(report)/lines.jq
-	@jq -r --arg shortest $(call cell,$(out)/arrival.tif,12) --arg shortest_ring $(call cell,$(out)/arrival.tif,60) -f $(report)/lines.jq $< > $@
+	@jq -r --arg shortest $(call cell,$(out)/arrival.tif,12) -f $(report)/lines.jq $< > $@
 
 # One label an isochrone, in the middle of its longest line.
 $(work)/isochrone-labels.txt: $(work)/isochrones.txt
@@ -81,9 +85,9 @@ report_figures := $(addprefix $(out)/,$(if $(maps),wave-map.png hazard-map.png s
 $(work)/pictures.json: $(report)/embed $(report_figures) | $(work)
 	@$^ > $@
 
-# Lines of the case and of its READMEs that call it invented.
-$(work)/invented.txt: $(case) $(wildcard $(case_dir)/README.md $(case_dir)/terrain/README.md) | $(work)
-	@cat $^ | grep -iE 'synthetic|hypothetical|fictitious|invented' | sed 's/^[#> ]*//' > $@ || true
+# What the case says of itself, where it says that it is invented.
+$(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/README.md $(case_dir)/terrain/README.md) | $(work)
+	@awk -f $^ > $@
 
 report_data := $(out)/summary.json $(addprefix $(work)/,run-attributes.json particles-attributes.json plan.json pictures.json \
   $(if $(maps),shores.json zones.json))
@@ -92,6 +96,7 @@ $(out)/report.html: $(report)/report.jq $(report)/style.css $(here)/numbers.jq $
 	@echo "report $@"
 	@jq -n -r -L $(here) -f $< --rawfile style $(report)/style.css --rawfile invented $(work)/invented.txt \
 	  --arg date "$$(date -u -r $(out)/run.h5 +%Y-%m-%d)" --arg uncertainty "$$($(uncertainty_line))" \
+	  --arg threshold "$(if $(gauges),$$(awk -F, '!/^#/ {sub("arrival_", "", $$10); sub("m_s", "", $$10); print $$10; exit}' $(out)/peaks.csv))" \
 	  $(foreach file,$(report_data) $(optional_json),--slurpfile $(subst -,_,$(basename $(notdir $(file)))) $(file)) > $@
 
 .PHONY: report
@@ -104,7 +109,7 @@ rasters := $(filter %.tif,$(gauge_files) $(slide_files))
 styles: $(rasters:.tif=.qml) $(if $(maps),$(work)/wave.styled)
 
 $(out)/%.qml: $(out)/%.tif $(here)/gis/raster.jq $(out)/gauges.json
-	@gdalinfo -json -mm $< | jq -r --arg name $* --arg level $$(jq '.still_water_level_m // 0' $(out)/gauges.json) -f $(here)/gis/raster.jq > $@
+	@$(call range,$<) | jq -r --arg name $* --arg level $$(jq '.still_water_level_m // 0' $(out)/gauges.json) -f $(here)/gis/raster.jq > $@
 
 # The package keeps its date, so that nothing that was made from it is made again; a copy, so that it is whole at any time.
 $(work)/wave.styled: $(out)/wave.gpkg $(here)/gis/vector.jq $(out)/gauges.json | $(work)

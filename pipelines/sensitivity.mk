@@ -25,7 +25,7 @@ uncertainty_line = if [ -e $(sensitivity_json) ] && ! [ $(out)/run.h5 -nt $(sens
 # What can be varied is known once the case itself has been run: hence the second make.
 sensitivity: $(out)/summary.json $(sensitivity_plan)
 	@$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) sensitivity-results
-	@$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) $(out)/summary.txt
+	@$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) $(out)/summary.txt $(out)/report.html
 	@cat $(sensitivity)/sensitivity.txt
 
 # Written only when it changes, so that another step reruns the variants and the same one does not.

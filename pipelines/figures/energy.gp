@@ -11,7 +11,7 @@ name = unit >= 1e15 ? "PJ" : unit >= 1e12 ? "TJ" : unit >= 1e9 ? "GJ" : unit >= 
 unit = unit > 1e15 ? 1e15 : unit
 eval canvas(1000, 480)
 set title case.": energy"; set xlabel "time (s)"; set ylabel "energy (".name.")"
-set key outside bottom center horizontal; set yrange [*<0:*]
+set key outside bottom center horizontal; set autoscale ymin; set autoscale yfixmin; set offsets 0, 0, graph 0.05, 0
 plot table using "time":((potential - column("potential_energy")) / unit) with lines lw 2.5 lc rgb brown title "potential, released", \
      table using "time":(column("kinetic_energy") / unit) with lines lw 2.5 lc rgb blue title "kinetic", \
      table using "time":((total - column("total_energy")) / unit) with lines lw 2.5 lc rgb grey title "lost (friction, breaking, sides)"

@@ -16,7 +16,7 @@ set lmargin at screen 0.09; set rmargin at screen 0.80
 set xrange [0:t_max]; set ylabel "m" offset 1
 set xzeroaxis lc rgb "#808080" lw 1
 unset key
-bottom = 60.0 / (110 + 135 * n); top = 1 - 40.0 / (110 + 135 * n)
+bottom = 68.0 / (110 + 135 * n); top = 1 - 40.0 / (110 + 135 * n)
 do for [i = 1:n] {
   name = word(names, i)
   set tmargin at screen top - (i - 1) * (top - bottom) / n - 0.004

@@ -11,6 +11,8 @@ set ylabel "volume (".unit_name.")"; set key bottom right
 plot rows(table) using 1:($2 / unit) with lines lw 2.5 lc rgb brown title "moving or moved", \
      rows(table) using 1:($3 / unit) with lines lw 2.5 lc rgb blue title "entered the water"
 unset title; set xlabel "time (s)"; set ylabel "speed (m/s)"; set key top right
-plot rows(table) using 1:7 with lines lw 2.5 lc rgb red title "fastest part (99th percentile)", \
+# The line of zeros: a slide that has not moved has no speed, and gnuplot refuses to draw nothing.
+plot 0 with lines lc rgb "#404040" notitle, \
+     rows(table) using 1:7 with lines lw 2.5 lc rgb red title "fastest part (99th percentile)", \
      rows(table) using 1:6 with lines lw 2.5 lc rgb brown title "mean"
 unset multiplot

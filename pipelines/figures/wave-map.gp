@@ -19,6 +19,7 @@ plot [x0:x1] [y0:y1] hillshade using 1:2:(light($3)):(light($3)):(0.97 * light($
      for [i = 1:has_isochrones] isochrones using 1:2 with lines lc rgb "black" lw 1.3 title "arrival of the wave (s)", \
      for [i = 1:has_isochrones] work."/isochrone-labels.txt" using 1:2:(sprintf("%g", $3)) with labels boxed font ",11" notitle, \
      for [i = 1:has_gauges] gauge_points(gauges) using 1:2 with points pt 7 ps 1.2 lc rgb "#7a2e8c" title "gauge", \
-     for [i = 1:has_gauges] gauge_points(gauges) using 1:2:3 with labels left boxed offset 1,0.4 font ",12" tc rgb "#7a2e8c" notitle, \
+     for [i = 1:has_gauges] for [k = 0:1] gauge_points(gauges) every 2::k using 1:2:3 \
+       with labels left boxed offset 0.8,(k ? -0.6 : 0.6) font ",12" tc rgb "#7a2e8c" notitle, \
      for [i = 1:has_shores] shores using 1:2 with points pt 9 ps 2 lc rgb red title "highest run-up of a shore", \
      for [i = 1:has_shores] shores using 1:2:(sprintf("shore %d: %.3g m", $3, $4)) with labels left boxed offset 1.2,0.8 font ",12" tc rgb red notitle

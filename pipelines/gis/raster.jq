@@ -22,7 +22,7 @@ def ramp($low; $high; $unit):
       </rastershader>
     </rasterrenderer>";
 
-def classes: "<rasterrenderer type=\"paletted\" band=\"1\" opacity=\"0.85\" alphaBand=\"-1\" nodataColor=\"\">
+def classes: "<rasterrenderer type=\"paletted\" band=\"1\" opacity=\"0.7\" alphaBand=\"-1\" nodataColor=\"\">
       <rasterTransparency/>
       <colorPalette>
         <paletteEntry value=\"0\" color=\"#ffffff\" alpha=\"0\" label=\"none\"/>
@@ -34,6 +34,11 @@ def relief: "<rasterrenderer type=\"hillshade\" band=\"1\" opacity=\"1\" alphaBa
       <rasterTransparency/>
     </rasterrenderer>";
 
+# Light on a slope is smooth only where the terrain is interpolated before.
+def smooth: "<provider><resampling enabled=\"true\" zoomedInResamplingMethod=\"cubic\" zoomedOutResamplingMethod=\"bilinear\" maxOversampling=\"2\"/></provider>
+    <resamplingStage>provider</resamplingStage>
+    ";
+
 .bands[0] as $band | ($band.unit // "") as $unit | ($name | sub("^arrival_.*"; "arrival")) as $kind
 # A raster without a value has no range.
 | ($band.computedMin // 0) as $least | ([$band.computedMax // 1, $least + 1e-6] | max) as $high
@@ -43,7 +48,7 @@ def relief: "<rasterrenderer type=\"hillshade\" band=\"1\" opacity=\"1\" alphaBa
 | "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>
 <qgis version=\"3.22\" styleCategories=\"Symbology\">
   <pipe>
-    " + (if $kind == "hazard" then hazard_classes | classes elif $kind == "ground" then relief
+    " + (if $kind == "ground" then smooth else "" end) + (if $kind == "hazard" then hazard_classes | classes elif $kind == "ground" then relief
          else (colours[$kind] // error("no colours for \($name)")) | ramp($low; $high; $unit) end) + "
     <brightnesscontrast brightness=\"0\" contrast=\"0\" gamma=\"1\"/>
     <huesaturation saturation=\"0\"/>

@@ -1,6 +1,7 @@
-# The report of a run as one page of HTML. Named arguments: the contents of style.css, lines of the case that call it
-# `invented`, the `date` of the run, the summary's line of `uncertainty`; the JSON files of the run by name. What a file
-# says is escaped on its way into the page (cell, text, paragraph); only this program writes markup.
+# The report of a run as one page of HTML. Named arguments: the contents of style.css; sentences of the case that call it
+# `invented`; the `date` of the run; the summary's line of `uncertainty`; the arrival `threshold` (m); the JSON files of
+# the run, by name. What a file says is escaped on its way into the page (text, items, paragraph, table); only this program
+# writes markup, such that it is XML as well.
 include "numbers";
 
 def text: @html "\(.)";
@@ -12,6 +13,8 @@ def amount:
   elif . >= 0.001 then (2 - (log10 | floor)) as $digits | fixed([$digits, 1] | max)
   else scientific end;
 def with_unit($unit): if . == null then "-" else "\(amount) \($unit)" end;
+def elevation: if . == null then "-" elif fabs < 10 then amount else fixed(1) end; # to the decimetre also high above the datum
+def given: . * 1e6 | round / 1e6 | tostring; # as the case gives it
 def percent: if . == null then "-" else "\(100 * . | if . == 0 then "0" elif fabs < 0.01 then scientific else fixed(if fabs >= 10 then 0 elif fabs >= 1 then 1 else 2 end) end) %" end;
 def paragraph: if . == null or . == "" then empty else "<p>\(text)</p>" end;
 def items: if length == 0 then empty else "<ul>", (.[] | "<li>\(text)</li>"), "</ul>" end;
@@ -28,21 +31,22 @@ def table($caption; $headings; rows):
     end;
 def file($name): $ARGS.named[$name][0]?;
 def figure($name; $caption): file("pictures")[$name] as $data
-  | if $data then "<figure><img src=\"\($data)\" alt=\"\($caption | text)\"><figcaption>\($caption | text)</figcaption></figure>" else empty end;
+  | if $data then "<figure><img src=\"\($data)\" alt=\"\($caption | text)\"/><figcaption>\($caption | text)</figcaption></figure>" else empty end;
 def section($title; body): [body] | if length == 0 then empty else "<section><h2>\($title | text)</h2>", .[], "</section>" end;
 def subsection($title; body): [body] | if length == 0 then empty else "<h3>\($title | text)</h3>", .[] end;
-# JSON whose layout is not known here: lists of objects as tables, the rest as a table of names and values.
-def words: gsub("_"; " ");
-def value: if type == "number" then amount elif type == "array" then map(tostring) | join(", ") else . end;
+# JSON whose layout is not known here: lists of objects as tables, the rest as tables of names and values.
+def words: sub("_m_s$"; " (m/s)") | sub("_(?<unit>m|m2|m3|s|J|Pa|percent)$"; " (\(.unit))") | sub("_deg$"; " (degrees)") | gsub("_"; " ");
+def value: if type == "number" then amount elif type == "boolean" then (if . then "yes" else "no" end)
+  elif type == "array" then map(value) | join(", ") elif type == "object" then tojson else . end;
+def is_table: type == "array" and length > 0 and all(type == "object");
 def generic($title):
-  if type == "array" and length > 0 and all(type == "object") then
-    (map(keys_unsorted[]) | reduce .[] as $k ([]; if index($k) then . else . + [$k] end)) as $keys
-    | table($title; $keys | map(words); .[] | [.[$keys[]] | if type == "object" then tostring else value end])
+  if is_table then
+    (reduce (.[] | keys_unsorted[]) as $key ([]; if index($key) then . else . + [$key] end)) as $keys
+    | table($title; $keys | map(words); .[] | [.[$keys[]] | value])
   elif type == "object" then
     (to_entries | map(select(.key != "provenance"))) as $entries
-    | table($title; ["quantity", "value"]; $entries[] | select(.value | type | . != "object" and . != "array") | [(.key | words), (.value | value)]),
-      ($entries[] | select(.value | type == "object" or (type == "array" and any(type == "object"))) | .key as $key | .value | generic($key | words)),
-      table($title; ["quantity", "values"]; $entries[] | select(.value | type == "array" and (length > 0) and all(type != "object")) | [(.key | words), (.value | value)])
+    | table($title; ["quantity", "value"]; $entries[] | select(.value | type == "object" or is_table | not) | [(.key | words), (.value | value)]),
+      ($entries[] | select(.value | type == "object" or is_table) | .key as $key | .value | generic($key | words))
   else empty end;
 
 file("summary") as $s | file("run_attributes") as $run | file("particles_attributes") as $particles | file("plan") as $plan
@@ -64,29 +68,29 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
 | ([$s.gauges[]? | select(.surface == "water" and unfinished(.time_of_max_s)) | .name]) as $rising
 | ($ARGS.named.invented | split("\n") | map(select(length > 0))) as $invented
 
-| "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
-"<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
-"<title>\("Landslide-generated wave: \($s.case)" | text)</title>", "<style>", $ARGS.named.style, "</style>", "</head>", "<body>",
-"<h1>\("Landslide-generated wave: \($s.case)" | text)</h1>",
-("<p class=\"meta\">\("Report of one run, computed \($ARGS.named.date) by lgiw \($s.version // "")\($per_metre). Lengths in m, times in s since the release of the slide\(if $level != null then "; heights above the still water level, \($level | amount) m above \($datum)" else "" end)." | text)</p>"),
+| "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\"/>",
+"<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>",
+"<title>\("Impulse wave: \($s.case)" | text)</title>", "<style>", $ARGS.named.style, "</style>", "</head>", "<body>",
+"<h1>\("Impulse wave: \($s.case)" | text)</h1>",
+("<p class=\"meta\">\("Report of one run, computed \($ARGS.named.date) by lgiw \($s.version // "")\($per_metre). Lengths in m, times in s since the start of the run\(if $level != null then "; heights above the still water level, \($level | given) m above \($datum)" else "" end)." | text)</p>"),
 (if ($invented | length) > 0 then
   "<div class=\"disclaimer\"><p><strong>Not an assessment of a real site.</strong> The case says of itself:</p>", ($invented | items), "</div>" else empty end),
 
 "<div class=\"answer\">",
-([ (if $wave then "The largest wave at the gauges is \($wave.max_height_m | m)\(range_of("max_wave_height_m"; $wave.max_height_m; m)) above still level, at \($wave.name) (\($wave | where)), \($wave.time_of_max_s | with_unit("s")) after the release." else empty end),
+([ (if $wave then "The largest wave at the gauges is \($wave.max_height_m | m)\(range_of("max_wave_height_m"; $wave.max_height_m; m)) above still level, at \($wave.name) (\($wave | where)), \($wave.time_of_max_s | with_unit("s")) after the start." else empty end),
    (if $zones.lake_maximum? then "In the lake as a whole the surface rises by up to \($zones.lake_maximum.height_m | m) (\($zones.lake_maximum | where))." else empty end),
-   (if $shores and ($shores | length) > 0 then "Run-up is highest on shore \($shores[0].shore): \($shores[0].runup_m | m) above still level, to \($shores[0].elevation_m | amount) m (\($shores[0] | where))." else empty end),
-   (if $section then "On the bank opposite the slide along section \($section.name) it is \($section.runup_m | m)\(range_of("runup_m"; $section.runup_m; m))." else empty end),
+   (if $shores and ($shores | length) > 0 then "Run-up is highest on shore \($shores[0].shore): \($shores[0].runup_m | m) above still level, to \($shores[0].elevation_m | elevation) m (\($shores[0] | where))." else empty end),
+   (if $section then "On the bank opposite the slide, along section \($section.name), run-up is \($section.runup_m | m)\(range_of("runup_m"; $section.runup_m; m))." else empty end),
    (if $zones then "\($zones.hazard_area_m2.land | add / 1e4 | amount) ha of land are flooded, \($zones.hazard_area_m2.land[2] / 1e4 | amount) ha of it more than 3 m deep." else empty end),
    (if $s.slide_volume_m3 != null then "The slide moves \($s.slide_volume_m3 | volume)\(range_of("slide_volume_m3"; $s.slide_volume_m3; volume)), of which \($s.immersed_volume_m3 | volume)\(range_of("immersed_volume_m3"; $s.immersed_volume_m3; volume)) enter the water." else empty end),
-   (if $study then "Uncertainty: \($study.line)." else "The uncertainty of these numbers was \($ARGS.named.uncertainty | sub(";.*"; ""))." end),
-   (if ($warnings | length) > 0 then "The run gave \($warnings | length) warning\(if ($warnings | length) > 1 then "s" else "" end) that bear on them, below." else empty end),
+   (if $study then "What moves each most: \($study.line | sub("^dominated by: "; ""))." else "The uncertainty of these numbers was \($ARGS.named.uncertainty | sub(";.*"; ""))." end),
+   (if ($warnings | length) > 0 then "Warnings of the run: \($warnings | length), listed below." else empty end),
    (if ($rising | length) > 0 then "At \($rising | join(", ")) the surface was highest at the end of the run: the crest may not have passed." else empty end)
  ] | join(" ") | paragraph),
 "</div>",
 
 section("Wave";
-  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds after the release\(if $s.arrival_threshold_m? then " (a change of \($s.arrival_threshold_m | m))" else "" end), shoreline at rest and limit of inundation. Isochrones are drawn through medians of 5 x 5 cells.")),
+  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds\($ARGS.named.threshold | if . == "" then "" else " (a change of the surface by \(.) m)" end), shoreline at rest and limit of inundation. Isochrones are smoothed by medians of 5 x 5 cells.")),
 
 section("Hazard classes";
   figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest."),
@@ -95,19 +99,19 @@ section("Hazard classes";
 
 section("Run-up";
   figure("shores"; "Highest run-up along each shore; distances from the shore's first point. Shores are numbered as on the map of the wave."),
-  (if $shores then table("Highest run-up of each shore"; ["shore", "length (m)", "run-up (m)", "elevation (m)", "distance along the shore (m)", "easting (m)", "northing (m)"];
-     $shores[] | [.shore, (.length_m | fixed(0)), (.runup_m | amount), (.elevation_m | amount), (.distance_m | fixed(0)), (.x | fixed(0)), (.y | fixed(0))]) else empty end),
+  (if $shores then table("Highest run-up of each shore, and where"; ["shore", "length (m)", "run-up (m)", "elevation (m)", "at distance (m)", "easting (m)", "northing (m)"];
+     $shores[] | [.shore, (.length_m | fixed(0)), (.runup_m | amount), (.elevation_m | elevation), (.distance_m | fixed(0)), (.x | fixed(0)), (.y | fixed(0))]) else empty end),
   table("Run-up along the sections, on the bank opposite the slide"; ["section", "run-up (m)", "elevation (m)", "time (s)"];
-     $s.sections[]? | select(.runup_m != null) | [.name, (.runup_m | amount), (.runup_elevation_m | amount), (.time_of_runup_s | amount)]),
+     $s.sections[]? | select(.runup_m != null) | [.name, (.runup_m | amount), (.runup_elevation_m | elevation), (.time_of_runup_s | amount)]),
   figure("runup"; "Water's edge on the bank opposite the slide against time.")),
 
 section("Gauges";
   ($s.gauges // [] | map(keys_unsorted[]) | unique | map(select(test("^arrival_.*m_s$")))) as $more
   | ($s.resolution.gauge_depth_particles? // {}) as $depths
-  | table("Heights above still level on water, above the first surface on soil. Arrival: first change by the threshold. The depth at rest in particles tells how well the wave is resolved there.";
-      ["gauge", "x (m)"] + (if $flat then [] else ["y (m)"] end) + ["surface", "highest (m)", "crest (m)", "at (s)", "first trough (m)", "at (s)", "arrival (s)"]
-        + ($more | map(sub("arrival_"; "arrival ") | sub("m_s$"; " m (s)"))) + ["depth (particles)"];
-      $s.gauges[]? | . as $g | [.name, (.x | place)] + (if $flat then [] else [.y | place] end) + [.surface, (.max_elevation_m | amount), (.max_height_m | amount),
+  | table("Heights above still level on water, above the first surface on soil. The depth at rest in particles tells how well the wave is resolved there.";
+      ["gauge", "x (m)"] + (if $flat then [] else ["y (m)"] end) + ["surface", "highest (m)", "crest (m)", "at (s)", "first trough (m)", "at (s)", "arrival at \($ARGS.named.threshold) m (s)"]
+        + ($more | map(sub("arrival_"; "arrival at ") | sub("m_s$"; " m (s)"))) + ["depth (particles)"];
+      $s.gauges[]? | . as $g | [.name, (.x | place)] + (if $flat then [] else [.y | place] end) + [.surface, (.max_elevation_m | elevation), (.max_height_m | amount),
         ((.time_of_max_s | amount) + (if .surface == "water" and unfinished(.time_of_max_s) then "*" else "" end)), (.first_trough_m | amount), (.time_of_trough_s | amount), (.arrival_s | amount)]
         + ($more | map($g[.] | amount)) + [$depths[.name] // "-"]),
   (if ($rising | length) > 0 then "* highest at the end of the run: the crest may not have passed." | paragraph else empty end),
@@ -133,12 +137,12 @@ section("How far to trust these numbers";
     (($plan.expected_error? // "") | if . == "" then "" else (.[:1] | ascii_upcase) + .[1:] + "." end | paragraph),
     (if ($warnings | length) > 0 then "<div class=\"warning\">", ($warnings | items), "</div>" else "The run gave no warning." | paragraph end),
     ($s.resolution // {} | table("Resolution, in particles"; ["quantity", "particles"];
-      (["particle spacing \($s.particle_spacing_m | amount) m; slide thickness, median", .slide_thickness_particles.median?],
+      (["particle spacing \($s.particle_spacing_m | given) m; slide thickness, median", .slide_thickness_particles.median?],
        ["slide thickness, thinnest tenth", .slide_thickness_particles.tenth?], ["greatest depth of the water", .water_depth_particles?]) | select(.[1] != null)))),
   subsection("Energy and error budget";
     figure("energy"; "Energy of the scene\(if $flat then " per metre of width" else "" end): what the fall releases, what moves, what is lost to friction, breaking and the sides."),
     ($s.error_budget // {} | table("Error budget of the run"; ["quantity", "value"];
-      (["mass: created or lost / total", (.mass_residual | scientific)], ["momentum: residual of internal forces / sum of forces", (.momentum_residual | scientific)],
+      (["mass that left / mass at the start", (.mass_residual | scientific)], ["momentum: residual of internal forces / sum of forces", (.momentum_residual | scientific)],
        ["energy created / released (or weight x spacing, where more)", (.energy_created | percent)], ["energy released", (if .energy_released_J == null then "-" else "\(.energy_released_J | scientific) J" end)],
        ["density error of the water, 99.9th percentile", (.density_error_p999 | percent)], ["density error of the water, largest", (.density_error | percent)],
        ["Mach number (fastest particle / speed of sound)", (.mach_number | amount)], ["particles of one phase within the other, share", (.interpenetrating_share | percent)],
@@ -156,13 +160,13 @@ section("How far to trust these numbers";
 section("Provenance";
   ([$particles.provenance, $run.provenance | select(. != null and . != "") | fromjson? | select(.tool)] + [($s.provenance // {})[]]) as $made
   | table("Model"; ["item", "value"];
-      (["particles", "water \($s.particles.water | thousands), soil \($s.particles.soil | thousands), wall \($s.particles.wall | thousands); spacing \($s.particle_spacing_m | amount) m"],
+      (["particles", "water \($s.particles.water | thousands), soil \($s.particles.soil | thousands), wall \($s.particles.wall | thousands); spacing \($s.particle_spacing_m | given) m"],
        ["numerics", "\($s.model // ""); scheme \($s.scheme // "-"), kernel \($s.kernel // "-"), h/dp \($s.h_over_dp // "-"), \($s.integrator // "-"), CFL \($s.cfl // "-")"],
        ["speed of sound of the water", ($s.sound_speed_m_s | with_unit("m/s"))],
        ["run", "\($s.steps | thousands) steps to \($duration | amount) s in \($s.wall_time_s | fixed(0)) s on \($s.device // "-"), \($s.threads // "-") threads"],
        ["coordinates", (($run.crs // "") | if . == "" then "none" else capture("^[A-Z]+\\[\"(?<n>[^\"]*)\"").n? // "as in the case" end)], ["vertical datum", $datum])),
-    subsection("Commands and versions"; $made[] | "<p>\("\(.tool) \(.version)" | text)<br><code>\(.command_line | text)</code></p>"),
-    table("Inputs"; ["file", "SHA-256"]; [$made[].inputs[]?] | unique_by(.path)[] | [.path, .sha256]),
+    subsection("Commands and versions"; $made[] | "<p>\("\(.tool) \(.version)" | text)<br/><code>\(.command_line | text)</code></p>"),
+    subsection("Inputs, with their SHA-256"; [$made[].inputs[]?] | unique_by(.path)[] | "<p>\(.path | text)<br/><code>\(.sha256 | text)</code></p>"),
     (if ($run.case_text // "") == "" then empty else subsection("The case"; "<pre>\($run.case_text | text)</pre>") end)),
 
 section("Left out";
