@@ -3,8 +3,7 @@ load "common.gp"
 load "ground.gp"
 slide = work."/thickness.xyz"; profiles = out."/profiles.csv"; shoreline = work."/shoreline-at-rest.txt"
 has_sections = present(profiles); has_shore = present(shoreline)
-STATS_max = 0  # where nothing moved
-stats slide using 3 nooutput; top = STATS_max > 1 ? STATS_max : 1
+stats slide using 3 nooutput; top = exists("STATS_max") ? (STATS_max > 1 ? STATS_max : 1) : 1
 
 eval canvas(1400, 200 + map_height(1400))
 set title sprintf("%s: thickness of the slide at the end", case)

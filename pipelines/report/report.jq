@@ -31,7 +31,7 @@ def table($caption; $headings; rows):
     end;
 def file($name): $ARGS.named[$name][0]?;
 def figure($name; $caption): file("pictures")[$name] as $data
-  | if $data then "<figure><img src=\"\($data)\" alt=\"\($caption | text)\"/><figcaption>\($caption | text)</figcaption></figure>" else empty end;
+  | if $data then "<figure class=\"\($name)\"><img src=\"\($data)\" alt=\"\($caption | text)\"/><figcaption>\($caption | text)</figcaption></figure>" else empty end;
 def section($title; body): [body] | if length == 0 then empty else "<section><h2>\($title | text)</h2>", .[], "</section>" end;
 def subsection($title; body): [body] | if length == 0 then empty else "<h3>\($title | text)</h3>", .[] end;
 # JSON whose layout is not known here: lists of objects as tables, the rest as tables of names and values.
@@ -62,7 +62,7 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
   def range_of($quantity; $value; show): [change($quantity)] | if length == 0 then "" else .[0] as $c | " (\($value + $c[0] | show) to \($value + $c[1] | show) in the sensitivity study)" end;
   def m: with_unit("m");
 
-  ([$s.gauges[]? | select(.surface == "water" and .max_height_m != null)] | max_by(.max_height_m)) as $wave
+  ([$s.gauges[]? | select(.surface == "water" and .max_height_m != null and .max_height_m > 0)] | max_by(.max_height_m)) as $wave
 | ([$s.sections[]? | select(.runup_m != null)] | max_by(.runup_m)) as $section
 | ($s.warnings // []) as $warnings
 | ([$s.gauges[]? | select(.surface == "water" and unfinished(.time_of_max_s)) | .name]) as $rising
@@ -81,7 +81,7 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
    (if $zones.lake_maximum? then "In the lake as a whole the surface rises by up to \($zones.lake_maximum.height_m | m) (\($zones.lake_maximum | where))." else empty end),
    (if $shores and ($shores | length) > 0 then "Run-up is highest on shore \($shores[0].shore): \($shores[0].runup_m | m) above still level, to \($shores[0].elevation_m | elevation) m (\($shores[0] | where))." else empty end),
    (if $section then "On the bank opposite the slide, along section \($section.name), run-up is \($section.runup_m | m)\(range_of("runup_m"; $section.runup_m; m))." else empty end),
-   (if $zones then "\($zones.hazard_area_m2.land | add / 1e4 | amount) ha of land are flooded, \($zones.hazard_area_m2.land[2] / 1e4 | amount) ha of it more than 3 m deep." else empty end),
+   (if $zones then if ($zones.hazard_area_m2.land | add) == 0 then "No land is flooded." else "\($zones.hazard_area_m2.land | add / 1e4 | amount) ha of land are flooded, \($zones.hazard_area_m2.land[2] / 1e4 | amount) ha of it more than 3 m deep." end else empty end),
    (if $s.slide_volume_m3 != null then "The slide moves \($s.slide_volume_m3 | volume)\(range_of("slide_volume_m3"; $s.slide_volume_m3; volume)), of which \($s.immersed_volume_m3 | volume)\(range_of("immersed_volume_m3"; $s.immersed_volume_m3; volume)) enter the water." else empty end),
    (if $study then "What moves each most: \($study.line | sub("^dominated by: "; ""))." else "The uncertainty of these numbers was \($ARGS.named.uncertainty | sub(";.*"; ""))." end),
    (if ($warnings | length) > 0 then "Warnings of the run: \($warnings | length), listed below." else empty end),

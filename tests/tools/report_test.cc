@@ -1,5 +1,5 @@
-// report.html and the styles for QGIS, made by the pipeline: one page that needs no other file, is well-formed, holds the
-// numbers of the tools and escapes what a case says; what a scene lacks is left out.
+// report.html and the styles for QGIS, made by the pipeline: one page that needs no other file, is well-formed, holds
+// the numbers of the tools and escapes what a case says; what a scene lacks is left out.
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -20,8 +20,8 @@ std::string malformed(const std::string& xml) {
   static const std::regex entity("&(amp|lt|gt|quot|apos|#[0-9]+);");
   std::vector<std::string> open;
   for (std::size_t at = 0; at < xml.size(); ++at) {
-    if (xml[at] == '&' && !std::regex_search(xml.begin() + long(at), xml.end(), entity,
-                                             std::regex_constants::match_continuous))
+    if (xml[at] == '&' &&
+        !std::regex_search(xml.begin() + long(at), xml.end(), entity, std::regex_constants::match_continuous))
       return "a bare & at " + xml.substr(at, 40);
     if (xml[at] != '<') continue;
     const std::size_t end = xml.find('>', at);
@@ -30,7 +30,8 @@ std::string malformed(const std::string& xml) {
     if (tag.empty() || std::string("!?").find(tag[0]) != std::string::npos) continue;
     const std::string name = tag.substr(tag[0] == '/', tag.find_first_of(" \n/", 1) - (tag[0] == '/'));
     if (tag[0] == '/') {
-      if (open.empty() || open.back() != name) return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+      if (open.empty() || open.back() != name)
+        return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
       open.pop_back();
     } else if (tag.back() != '/') {
       open.push_back(name);
@@ -55,10 +56,9 @@ class Report : public testing::Test {
   }
   void make(const std::string& flags = "") {
     const std::string out = (shop / "out").string();
-    const Outcome outcome =
-        shop.run("env -u MAKEFLAGS -u MAKELEVEL make -j 2 -C '" LGIW_SOURCE_DIR "/pipelines' BIN='" LGIW_BIN_DIR
-                 "' CASE_DIR='" +
-                 (shop / "scene").string() + "' out='" + out + "' '" + out + "/report.html' styles " + flags);
+    const Outcome outcome = shop.run(
+        "env -u MAKEFLAGS -u MAKELEVEL make -j 2 -C '" LGIW_SOURCE_DIR "/pipelines' BIN='" LGIW_BIN_DIR "' CASE_DIR='" +
+        (shop / "scene").string() + "' out='" + out + "' '" + out + "/report.html' styles " + flags);
     ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
     page = read_bytes(shop / "out/report.html");
     expect_one_sound_page();
@@ -90,8 +90,9 @@ class Report : public testing::Test {
 };
 
 TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
-  write_case("# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
-             replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20", "friction_angle: 5"));
+  write_case(
+      "# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
+      replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20", "friction_angle: 5"));
   make("THRESHOLDS=1");
   EXPECT_EQ(headings(), (std::set<std::string>{"Wave", "Hazard classes", "Run-up", "Gauges", "Slide",
                                                "How far to trust these numbers", "Provenance", "Left out"}));
@@ -130,14 +131,16 @@ TEST_F(Report, StylesSpanTheDataAndLieWhereQgisLooks) {
   const double highest = json::parse(info.out)["bands"][0]["computedMax"];
   const std::string style = read_bytes(shop / "out/max_elevation.qml");
   std::smatch range;
-  ASSERT_TRUE(std::regex_search(style, range, std::regex("classificationMin=\"([^\"]*)\" classificationMax=\"([^\"]*)\"")));
+  ASSERT_TRUE(
+      std::regex_search(style, range, std::regex("classificationMin=\"([^\"]*)\" classificationMax=\"([^\"]*)\"")));
   EXPECT_EQ(std::stod(range[1]), 110);
   EXPECT_NEAR(std::stod(range[2]), highest, 1e-6);
 
   const Outcome rows = shop.run("ogr2ogr -f GeoJSON /vsistdout/ out/wave.gpkg layer_styles");
   ASSERT_EQ(rows.status, 0) << rows.err;
   std::set<std::string> layers;
-  for (const json& row : json::parse(rows.out)["features"]) {
+  const json styles = json::parse(rows.out);
+  for (const json& row : styles["features"]) {
     layers.insert(row["properties"]["f_table_name"]);
     EXPECT_EQ(malformed(row["properties"]["styleQML"]), "") << row;
     EXPECT_TRUE(row["properties"]["useAsDefault"].get<bool>());
