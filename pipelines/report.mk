@@ -25,10 +25,11 @@ $(work)/inundation.txt: $(work)/wave.styled $(report)/lines.jq
 	@ogr2ogr -f GeoJSON /vsistdout/ $(out)/wave.gpkg -dialect sqlite -sql 'SELECT ST_Union(geom) FROM inundation' \
 	  | jq -r --arg shortest 0 -f $(report)/lines.jq > $@
 
-# Medians of 5 x 5 cells, where no arrival counts as late, smooth the times; isochrones shorter than 12 cells say nothing.
 # GDAL complains where a raster has no value and so no range.
 range = gdalinfo -json -mm $(1) 2> /dev/null
+# So many cells of a raster, in m.
 cell = $$(gdalinfo -json $(1) | jq '.geoTransform[1] * $(2)')
+# Medians of 5 x 5 cells, where no arrival counts as late, smooth the times; isochrones shorter than 12 cells say nothing.
 $(work)/arrival-median.tif: $(out)/arrival.tif | $(work)
 	@gdalwarp -q -overwrite -srcnodata nan -dstnodata 1e9 $< $(work)/arrival-late.tif
 	@gdalwarp -q -overwrite -r med -tr $(call cell,$<,5) $(call cell,$<,5) -srcnodata None -dstnodata None $(work)/arrival-late.tif $@
