@@ -57,6 +57,8 @@ void add_gauges(Assessment& a, const RunReader& run, const Case& c, const GaugeR
                                                   {"first_crest_time_s", wave.crest.time}};
     for (PlaceEstimate& e : place.estimates)
       if (const auto found = simulated.find(e.quantity); found != simulated.end()) e.simulated = found->second;
+    if (wave.crest.time == s.time.back())
+      a.notes.push_back("at gauge " + place.name + " the first crest is still rising at the end of the run");
     if (place.estimates.empty())
       a.notes.push_back("gauge " + place.name + " lies behind the slide, where no formula holds");
     a.places.push_back(std::move(place));
@@ -236,10 +238,9 @@ std::vector<std::string> limit_lines(const Assessment& a) {
       line += ")";
     }
     const bool low = std::isfinite(o.limit.low), high = std::isfinite(o.limit.high);
-    line += o.limit.low == o.limit.high ? " is not " + number_text(o.limit.low, 3)
-            : low && high ? " is not from " + number_text(o.limit.low, 3) + " to " + number_text(o.limit.high, 3)
-            : high        ? " is above " + number_text(o.limit.high, 3)
-                          : " is below " + number_text(o.limit.low, 3);
+    line += low && high ? " is not from " + number_text(o.limit.low, 3) + " to " + number_text(o.limit.high, 3)
+            : high      ? " is above " + number_text(o.limit.high, 3)
+                        : " is below " + number_text(o.limit.low, 3);
     lines.push_back(std::move(line));
   }
   return lines;
