@@ -241,20 +241,23 @@ SlideEntry measure_slide_entry(const RunReader& run, const Case& c) {
   return {};
 }
 
-double depth_before_slide(const RunHeader& header, const std::vector<float>& first_water, const SlideEntry& entry) {
+WaterAhead water_ahead(const RunHeader& header, const std::vector<float>& first_water, const SlideEntry& entry) {
   const ParticleHeader& p = header.particles;
   const HeightField& ground = ground_of(p);
-  if (ground.empty()) return no_value;
-  double near = no_value, far = no_value;
+  WaterAhead water;
+  if (ground.empty()) return water;
+  double near = no_value, far = no_value, edge = no_value;
   for (double r = 0;; r += header.map.dx / 2) {
     const double x = entry.x + r * entry.ahead[0], y = entry.y + r * entry.ahead[1];
     if (!inside_domain(p, x, y)) break;
     if (std::isnan(sample_surface(header.map, first_water, x - p.origin[0], y - p.origin[1]))) continue;
+    if (std::isnan(edge)) edge = r, water.x = x, water.y = y;
     const double depth = p.still_water_level - ground.height(x - p.origin[0], y - p.origin[1]);
     if (!(depth <= 0) && !(depth <= far)) far = depth;
-    if (r <= 5 * depth && !(depth <= near)) near = depth;
+    if (r - edge <= 5 * depth && !(depth <= near)) near = depth;
   }
-  return std::isnan(near) ? far : near;
+  water.depth = std::isnan(near) ? far : near;
+  return water;
 }
 
 }  // namespace lgiw

@@ -70,11 +70,16 @@ class SlideEntryRecorder {
 /// there is neither, or no water.
 SlideEntry measure_slide_entry(const RunReader& run, const Case& c);
 
-/// Still water depth before the slide: the greatest on its axis, ahead of where it entered, that is no farther away
-/// than five times itself. Laboratory channels and basins are flat beyond the foot of the slope, and the wave is
-/// full-grown there (x_M is 5.5 sqrt(P) depths away); a basin that gets deeper only farther out does not count. Where
-/// the water is too shallow all along for that, the greatest of all. NaN without water ahead. `first_water` [ny,nx]
-/// local.
-double depth_before_slide(const RunHeader& header, const std::vector<float>& first_water, const SlideEntry& entry);
+/// The water at rest before the slide, on its axis.
+struct WaterAhead {
+  double x = no_value,
+         y = no_value;      // in the case's CRS: its edge, ahead of where the slide passes; distances are from here
+  double depth = no_value;  // m
+};
+/// The depth is the greatest that is no farther from the edge than five times itself. Laboratory channels and basins
+/// are flat beyond the foot of the slope, and the wave is full-grown there (x_M is 5.5 sqrt(P) depths away); a basin
+/// that gets deeper only farther out does not count. Where the water is too shallow all along for that, the greatest of
+/// all. NaN without water ahead. `first_water` [ny,nx] local.
+WaterAhead water_ahead(const RunHeader& header, const std::vector<float>& first_water, const SlideEntry& entry);
 
 }  // namespace lgiw

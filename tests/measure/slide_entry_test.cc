@@ -125,23 +125,24 @@ TEST(SlideEntry, ABlockThatFallsFromAboveTheLake) {
 TEST(SlideEntry, DepthIsTheDeepestThatIsNotTooFarAway) {
   RunHeader header = basin_header(false);
   SlideEntry entry;
-  entry.x = 1015, entry.y = 20, entry.ahead = {1, 0};
+  entry.x = 1005, entry.y = 20, entry.ahead = {1, 0};
   const std::vector<float> water = basin_water(header.map, -100);
-  EXPECT_NEAR(depth_before_slide(header, water, entry), 10, 1e-9);  // the flat bed, from 5 m on
+  EXPECT_NEAR(water_ahead(header, water, entry).x, 1015, 2);       // the water's edge, whose first wet node is at 16
+  EXPECT_NEAR(water_ahead(header, water, entry).depth, 10, 1e-9);  // the flat bed, from 5 m on
   // A trench of 30 m, 20 m away: within five of its depths.
   const auto dig = [&](std::size_t from, std::size_t to, double z) {
     for (std::size_t n = 0; n < header.particles.ground.z.size(); ++n)
       if (n % 101 >= from && n % 101 <= to) header.particles.ground.z[n] = z;
   };
   dig(34, 38, -20);
-  EXPECT_NEAR(depth_before_slide(header, water, entry), 30, 1e-9);
+  EXPECT_NEAR(water_ahead(header, water, entry).depth, 30, 1e-9);
   dig(34, 38, 0);
-  // Shallow to x = 50 (1 m), then 6 m: 35 m away is more than five times that.
+  // Shallow to x = 50 (1 m), then 6 m: some 35 m away is more than five times that.
   dig(15, 49, 9);
   dig(50, 80, 4);
-  EXPECT_NEAR(depth_before_slide(header, water, entry), 1, 1e-9);
+  EXPECT_NEAR(water_ahead(header, water, entry).depth, 1, 1e-9);
   entry.x = 1005, entry.ahead = {-1, 0};  // uphill
-  EXPECT_TRUE(std::isnan(depth_before_slide(header, water, entry)));
+  EXPECT_TRUE(std::isnan(water_ahead(header, water, entry).depth));
 }
 
 TEST(SlideEntry, BankOppositeInTheBasin) {

@@ -17,9 +17,10 @@ struct Polar {
   double distance, angle;
 };
 
-/// A place in the case's CRS as seen from the impact.
-Polar seen_from(const SlideEntry& entry, double x, double y, bool channel) {
-  const double dx = x - entry.x, dy = channel ? 0 : y - entry.y;
+/// A place in the case's CRS as seen from the water's edge before the slide.
+Polar seen_from(const Assessment& a, double x, double y) {
+  const SlideEntry& entry = *a.entry;
+  const double dx = x - a.water.x, dy = a.channel ? 0 : y - a.water.y;
   const double along = dx * entry.ahead[0] + dy * entry.ahead[1], aside = dy * entry.ahead[0] - dx * entry.ahead[1];
   return {std::hypot(along, aside), std::abs(std::atan2(aside, along)) * 180 / std::numbers::pi};
 }
@@ -45,7 +46,7 @@ void add_gauges(Assessment& a, const RunReader& run, const Case& c, const GaugeR
   const double threshold = arrival_threshold(c, run.header().particles.dp);
   for (const GaugeSeries& s : gauges.series()) {
     if (s.surface != GaugeSurface::water || s.initially_dry) continue;
-    const Polar seen = seen_from(*a.entry, s.gauge.x, s.gauge.y, a.channel);
+    const Polar seen = seen_from(a, s.gauge.x, s.gauge.y);
     Place place = wave_place(a, "gauge", s.gauge.name, seen.distance, seen.angle, a.entry->start);
     place.x = s.gauge.x, place.y = s.gauge.y;
     const MeasuredWave wave = measured_wave(s, threshold);
@@ -84,7 +85,7 @@ void add_banks(Assessment& a, const RunReader& run, const std::vector<Section>& 
     const Bank bank = opposite_bank(run.header(), sections[k], first_water);
     if (!bank.present || !runup.sections()[k].has_bank) continue;
     const double x = bank.x + origin[0], y = bank.y + origin[1];
-    const Polar seen = seen_from(*a.entry, x, y, a.channel);
+    const Polar seen = seen_from(a, x, y);
     Place place = bank_place(a, sections[k].name, seen.distance, seen.angle, bank.slope, bank.depth);
     place.x = x, place.y = y;
     for (PlaceEstimate& e : place.estimates) e.simulated = runup.sections()[k].max_height;

@@ -40,6 +40,7 @@ struct Assessment {
   std::vector<std::string> given;           // the numbers that came from the command line
   std::string run, case_name;               // "" without
   std::optional<SlideEntry> entry;          // as measured in the run
+  WaterAhead water;                         // before it
   double drop = no_value, travel_slope = no_value, friction_angle = no_value;  // what Koerner's speed is of
   Estimate koerner{no_value, {}};
   std::vector<Place> places;

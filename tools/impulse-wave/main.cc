@@ -69,7 +69,8 @@ void measure(Assessment& a, const Options& options, const RunReader& run, const 
     a.notes.push_back("no part of the slide crossed the still water level");
     return;
   }
-  a.impact.depth = depth_before_slide(header, run.water_surface(0), entry);
+  a.water = water_ahead(header, run.water_surface(0), entry);
+  a.impact.depth = a.water.depth;
   a.drop = entry.drop, a.travel_slope = entry.travel_slope;
   const bool at_rest = std::hypot(c.slide.velocity[0], c.slide.velocity[1], c.slide.velocity[2]) == 0;
   if (p.counts.soil > 0 && at_rest)  // Koerner's slide gets its speed on the way
@@ -120,6 +121,8 @@ Assessment assess(const Options& options, const RunReader* run, const Case& c) {
   for (const Options::Number& n : options.numbers())
     if (std::isnan(a.impact.*n.target)) missing += std::string(missing.empty() ? "--" : ", --") + n.name;
   a.complete = missing.empty();
+  LGIW_VALIDATE(!a.entry || !(a.entry->volume > 0) || !std::isnan(a.water.x), "there is no water before the slide",
+                "it moves away from the lake on its axis", "give the numbers without the run");
   const bool dry = a.entry && !(a.entry->volume > 0);  // nothing came: a result, and no fault of the call
   LGIW_VALIDATE(a.complete || dry,
                 missing + (missing.find(' ') == std::string::npos ? " is required" : " are required"),

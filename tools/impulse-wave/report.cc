@@ -122,8 +122,8 @@ std::string report_text(const Assessment& a) {
   line("slope", "impact angle", s.slope, "deg");
   line("depth", "still water depth", s.depth, "m", a.entry ? "greatest before the slide" : "");
   if (a.entry && a.entry->volume > 0)
-    text += "  entered the water from " + text_of(a.entry->start) + " to " + text_of(a.entry->end) + " s, around x " +
-            number_text(a.entry->x, 9) + (a.channel ? "" : ", y " + number_text(a.entry->y, 9)) + ", towards " +
+    text += "  entered the water from " + text_of(a.entry->start) + " to " + text_of(a.entry->end) + " s at x " +
+            number_text(a.water.x, 9) + (a.channel ? "" : ", y " + number_text(a.water.y, 9)) + ", towards " +
             text_of(a.entry->direction) + " deg\n";
   if (!std::isnan(a.koerner.value))
     text += "  speed after Koerner " + text_of(a.koerner.value) + " m/s: sunk by " + text_of(a.drop) + " m on " +
@@ -181,8 +181,8 @@ ordered_json report_json(const Assessment& a) {
                          {"volume_m3", e.volume},
                          {"submerged_volume_m3", e.submerged_volume},
                          {"slope_deg", e.slope},
-                         {"x", e.x},
-                         {"y", e.y},
+                         {"x", a.water.x},
+                         {"y", a.water.y},
                          {"direction_deg", e.direction},
                          {"start_s", e.start},
                          {"end_s", e.end}};
