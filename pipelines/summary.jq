@@ -26,7 +26,7 @@ def empirical:
           | "first crest at \($gauge.name) \(beside(.predicted; .simulated))"
         else (.places[0].estimates[0] | "largest crest \(.predicted | short) m") end,
         if $bank then $bank.estimates[0]
-          | "run-up at \($bank.name) by \(.formula) \(beside(.predicted; .simulated))" else empty end] | join(", ")) +
+          | "run-up at \($bank.name) by \(.formula)\(if .verified then "" else " (recalled)" end) \(beside(.predicted; .simulated))" else empty end] | join(", ")) +
       "\n                   limits of its tests broken: " +
       ([.places[].estimates[] | select(.formula == "VAW 254") | .limits_broken[] | "\(.quantity) \(.value | fixed(2))"]
         | reduce .[] as $limit ([]; if any(.[]; split(" ")[0] == ($limit | split(" ")[0])) then . else . + [$limit] end)
