@@ -92,7 +92,7 @@ $(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/READ
 
 report_data := $(out)/summary.json $(addprefix $(work)/,run-attributes.json particles-attributes.json plan.json pictures.json \
   $(if $(maps),shores.json zones.json))
-optional_json = $(wildcard $(out)/impulse.json $(sensitivity_json))
+optional_json = $(wildcard $(sensitivity_json))
 $(out)/report.html: $(report)/report.jq $(report)/style.css $(here)/numbers.jq $(report_data) $(work)/invented.txt $(optional_json)
 	@echo "report $@"
 	@jq -n -r -L $(here) -f $< --rawfile style $(report)/style.css --rawfile invented $(work)/invented.txt \

@@ -2,8 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lgiw {
+namespace {
+
+/// The lowest ground that is under water, not bed: under the slide the bed is its failure surface. The number of
+/// stations where all are dry.
+std::size_t lowest_wet_station(const RunHeader& header, const std::vector<Station>& stations,
+                               const std::vector<float>& water) {
+  const HeightField& ground = ground_of(header.particles);
+  double lowest = infinite;
+  std::size_t found = stations.size();
+  for (std::size_t k = 0; k < stations.size(); ++k) {
+    const Station& s = stations[k];
+    if (std::isnan(sample_surface(header.map, water, s.x, s.y))) continue;
+    const double z = ground.height(s.x, s.y);
+    if (z < lowest) lowest = z, found = k;
+  }
+  return found;
+}
+
+}  // namespace
 
 RunupRecorder::RunupRecorder(const RunHeader& header, const std::vector<Section>& sections) : header_(header) {
   for (const Section& section : sections) {
@@ -19,17 +39,10 @@ RunupRecorder::RunupRecorder(const RunHeader& header, const std::vector<Section>
 }
 
 void RunupRecorder::find_bank(Line& line, SectionRunup& section, const std::vector<float>& water) const {
-  // The lowest ground, not bed: under the slide the bed is its failure surface.
-  const HeightField& ground = ground_of(header_.particles);
-  double lowest = infinite;
-  for (std::size_t k = 0; k < line.stations.size(); ++k) {
-    const Station& s = line.stations[k];
-    if (std::isnan(sample_surface(header_.map, water, s.x, s.y))) continue;
-    const double z = ground.height(s.x, s.y);
-    if (z < lowest) lowest = z, line.first = k;
-  }
+  const std::size_t lowest = lowest_wet_station(header_, line.stations, water);
+  if (lowest < line.stations.size()) line.first = lowest;
   const Station& end = line.stations.back();
-  section.has_bank = std::isfinite(lowest) && std::isnan(sample_surface(header_.map, water, end.x, end.y)) &&
+  section.has_bank = lowest < line.stations.size() && std::isnan(sample_surface(header_.map, water, end.x, end.y)) &&
                      line.bed.back() > header_.particles.still_water_level;
 }
 
@@ -62,6 +75,31 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
       section.time_of_max = time;
     }
   }
+}
+
+Bank opposite_bank(const RunHeader& header, const Section& section, const std::vector<float>& first_water) {
+  const ParticleHeader& p = header.particles;
+  const std::vector<Station> stations = section_stations(section, p.origin, header.map.dx / 2);
+  const std::size_t lowest = lowest_wet_station(header, stations, first_water);
+  Bank bank;
+  if (lowest == stations.size()) return bank;
+  const auto height = [&](std::size_t k) {  // above still water level
+    return ground_of(p).height(stations[k].x, stations[k].y) - p.still_water_level;
+  };
+  bank.depth = -height(lowest);
+  std::size_t foot = lowest, shore = lowest;
+  while (shore < stations.size() && !(height(shore) >= 0)) {
+    if (height(shore) <= -bank.depth / 2) foot = shore;
+    ++shore;
+  }
+  bank.present = shore < stations.size();
+  if (!bank.present) return bank;
+  bank.x = stations[shore].x, bank.y = stations[shore].y;
+  std::size_t top = shore;
+  while (top + 1 < stations.size() && height(top) < bank.depth / 2) ++top;
+  bank.slope =
+      std::atan2(height(top) - height(foot), stations[top].distance - stations[foot].distance) * 180 / std::numbers::pi;
+  return bank;
 }
 
 }  // namespace lgiw

@@ -43,4 +43,13 @@ class RunupRecorder {
   std::vector<SectionRunup> sections_;
 };
 
+/// The opposite bank of a section line as a wave meets it.
+struct Bank {
+  bool present = false;
+  double x = 0, y = 0;  // local: where the still water ends
+  double depth = 0;     // m: greatest still water depth on the line
+  double slope = 0;  // degrees: mean from half that depth below still water level to as much above, or the line's end
+};
+Bank opposite_bank(const RunHeader& header, const Section& section, const std::vector<float>& first_water);
+
 }  // namespace lgiw

@@ -385,13 +385,17 @@ class ParticleSimulation final : public Simulation {
     std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
     return out;
   }
-  int64_t bytes() const override {
-    int64_t sum = 0;
-    auto add = [&](const auto& q, const char*) { sum += int64_t(q.size() * sizeof(*q.data())); };
+  PhaseBytes bytes() const override {
+    PhaseBytes sum;
+    const auto to = [](int64_t& total) {
+      return [&total](const auto& q, const char*) { total += int64_t(q.size() * sizeof(*q.data())); };
+    };
+    const auto of = [&](auto& phase, int64_t& total) {
+      phase.carried(to(total)), phase.scratch(to(total)), phase.spare.all(to(total));
+    };
     auto& self = const_cast<ParticleSimulation&>(*this);
-    self.water_.carried(add), self.water_.scratch(add), self.soil_.carried(add), self.soil_.scratch(add),
-        self.wall_.all(add), self.bodies_.carried(add), self.bodies_.scratch(add);
-    self.water_.spare.all(add), self.soil_.spare.all(add), self.bodies_.spare.all(add);
+    of(self.water_, sum.water), of(self.soil_, sum.soil), of(self.bodies_, sum.wall);
+    self.wall_.all(to(sum.wall));
     return sum;
   }
   std::string device() const override { return backend_.name(); }

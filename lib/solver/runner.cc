@@ -207,7 +207,7 @@ class Runner {
     const StepState st = simulation_->state();
     s << "particles: " << header_.counts.water << " water, " << header_.counts.soil << " soil, " << header_.counts.wall
       << " wall (" << header_.counts.wall_left_out << " wall particles left out); "
-      << simulation_->bytes() / double(1 << 20) << " MiB; ";
+      << simulation_->bytes().total() / double(1 << 20) << " MiB; ";
     if (header_.counts.water) s << "water c " << model_.sound_speed << " m/s; ";
     if (header_.counts.soil)
       s << "soil c "
@@ -474,7 +474,15 @@ class Runner {
     j["max_water_speed_m_s"] = extremes_["max_water_speed"];
     if (header_.counts.soil) j["max_soil_speed_m_s"] = extremes_["max_soil_speed"];
     j["model"] = simulation_->description();
-    j["bytes"] = simulation_->bytes();
+    const PhaseBytes bytes = simulation_->bytes();
+    j["bytes"] = bytes.total();
+    const auto each = [](int64_t of_phase, uint64_t n) {
+      return n ? nlohmann::ordered_json(double(of_phase) / double(n)) : nlohmann::ordered_json();
+    };
+    const auto& counts = header_.counts;
+    j["bytes_per_particle"] = {{"water", each(bytes.water, uint64_t(counts.water))},
+                               {"soil", each(bytes.soil, uint64_t(counts.soil))},
+                               {"wall", each(bytes.wall, uint64_t(counts.wall))}};
     j["neighbours_per_particle"] = neighbours_per_particle();  // within the support of the kernel
     j["dimension"] = header_.dimension;
     j["particle_spacing_m"] = header_.dp;
@@ -583,7 +591,7 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
                     {"wall", data.header.counts.wall},
                     {"left_out", data.header.counts.wall_left_out}};
   j["left_out"] = simulation->left_out();
-  j["memory_bytes"] = simulation->bytes();
+  j["memory_bytes"] = simulation->bytes().total();
   j["time_step_s"] = dt;
   j["steps"] = std::llround(steps);
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;

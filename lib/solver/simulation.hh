@@ -59,6 +59,12 @@ struct PhaseTime {
   double seconds;
 };
 
+/// Memory by phase, each with its cells.
+struct PhaseBytes {
+  int64_t water = 0, soil = 0, wall = 0;  // wall: moving bodies too
+  int64_t total() const { return water + soil + wall; }
+};
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -79,7 +85,7 @@ class Simulation {
   virtual std::vector<RawArray> save() const = 0;
   virtual void restore(const std::vector<RawArray>& arrays) = 0;  // throws InputError when they do not fit
   virtual std::vector<PhaseTime> timings() const = 0;
-  virtual int64_t bytes() const = 0;            // held for particles and neighbours
+  virtual PhaseBytes bytes() const = 0;         // held for particles and neighbours
   virtual std::string description() const = 0;  // backend, precision, kernel
   virtual std::string device() const = 0;       // what it runs on
   /// What this scene does not need and therefore neither holds nor runs, with the bytes saved.

@@ -20,6 +20,7 @@ def path_parts: input_filename | split("/") | last | split(".");
         phase_shares: ($s.phase_seconds | (map(values) | add) as $sum | map_values(. / $sum)),
         wall_time_shares: ($s | wall_time_shares),
         bytes_per_particle: ($s.bytes / ($s.particles | .water + .soil + .wall)),
+        bytes_of: $s.bytes_per_particle,
         peak_memory_bytes: ($this | map(.peak_memory_bytes) | max),
         start_and_output_s: ($this | map(.wall_time_s - .stepping_time_s) | median)
       }

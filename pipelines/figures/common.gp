@@ -1,5 +1,6 @@
 # What all figures share: terminal, line weights, and the colours of the field: water blue, soil brown, bed grey.
 blue = "#2b7bba"; pale_blue = "#a9d0ef"; brown = "#a0622d"; grey = "#8c8c8c"; red = "#c00000"
+line_colours = "#8c8c8c #2b7bba #c00000 #2e7d32 #6a3d9a"  # of several runs
 canvas(width, height) = sprintf("set terminal pngcairo noenhanced size %d, %d font 'DejaVu Sans,13'", width, height)
 set encoding utf8
 set datafile separator ","

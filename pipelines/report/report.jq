@@ -34,23 +34,23 @@ def figure($name; $caption): file("pictures")[$name] as $data
   | if $data then "<figure class=\"\($name)\"><img src=\"\($data)\" alt=\"\($caption | text)\"/><figcaption>\($caption | text)</figcaption></figure>" else empty end;
 def section($title; body): [body] | if length == 0 then empty else "<section><h2>\($title | text)</h2>", .[], "</section>" end;
 def subsection($title; body): [body] | if length == 0 then empty else "<h3>\($title | text)</h3>", .[] end;
-# JSON whose layout is not known here: lists of objects as tables, the rest as tables of names and values.
-def words: sub("_m_s$"; " (m/s)") | sub("_(?<unit>m|m2|m3|s|J|Pa|percent)$"; " (\(.unit))") | sub("_deg$"; " (degrees)") | gsub("_"; " ");
-def value: if type == "number" then amount elif type == "boolean" then (if . then "yes" else "no" end)
-  elif type == "array" then map(value) | join(", ") elif type == "object" then tojson else . end;
-def is_table: type == "array" and length > 0 and all(type == "object");
-def generic($title):
-  if is_table then
-    (reduce (.[] | keys_unsorted[]) as $key ([]; if index($key) then . else . + [$key] end)) as $keys
-    | table($title; $keys | map(words); .[] | [.[$keys[]] | value])
-  elif type == "object" then
-    (to_entries | map(select(.key != "provenance"))) as $entries
-    | table($title; ["quantity", "value"]; $entries[] | select(.value | type == "object" or is_table | not) | [(.key | words), (.value | value)]),
-      ($entries[] | select(.value | type == "object" or is_table) | .key as $key | .value | generic($key | words))
-  else empty end;
+# first_crest_m: first crest (m)
+def words: sub("_m_s$"; " (m/s)") | sub("_kg_m3$"; " (kg/m3)") | sub("_(?<unit>m|m3|s)$"; " (\(.unit))") | sub("_deg$"; " (degrees)") | gsub("_"; " ");
+# Estimates by empirical formulas beside the run, as impulse-wave sums them up.
+def empirical:
+  table("Slide at its impact, as the formulas take it"; ["quantity", "value"];
+    (.slide // {} | to_entries[] | select(.value | type == "number") | [(.key | words), (.value | amount)]),
+    (.numbers // {} | to_entries[] | [.key, (.value | amount)])),
+  table("Estimates beside this run; * recalled, not checked against its source";
+    ["place", "distance (m)", "quantity", "formula", "estimate", "this run", "outside the tests in"];
+    .places[]? | . as $place | .estimates[]? | [($place | .name | if . == "" then $place.kind else . end), ($place.distance_m | amount), (.quantity | words),
+      "\(.formula)\(if .verified then "" else "*" end)", (.predicted | amount), (.simulated | amount), ([.limits_broken[]?.quantity] | join(", "))]),
+  table("Where the slide lies outside the tests that the formulas were fitted to"; ["formula", "source", "quantity", "value", "tested from", "to"];
+    [.places[]?.estimates[]? | {formula, source} + .limits_broken[]?] | unique[] | [.formula, .source, .quantity, (.value | amount), (.low | amount), (.high | amount)]),
+  (.notes // [] | items);
 
 file("summary") as $s | file("run_attributes") as $run | file("particles_attributes") as $particles | file("plan") as $plan
-| file("shores") as $shores | file("zones") as $zones | file("impulse") as $impulse
+| file("shores") as $shores | file("zones") as $zones
 | (file("sensitivity") | if .line? == $ARGS.named.uncertainty then . else null end) as $study
 | $s.still_water_level_m as $level | ($s.dimension == 2) as $flat | $s.end_time_s as $duration
 | (($run.vertical_datum // "") | if . == "" then "the case's datum" else . end) as $datum
@@ -130,6 +130,7 @@ section("Slide";
     | select(.[1] != "-")) end),
   figure("volumes"; "Volume of the slide, volume that entered the water, and speeds."),
   figure("deposit-map"; "Thickness of the slide at the end of the run."),
+  figure("slices"; "Particles in a slice along the first section at several times: plastic strain of the soil, speed of the water."),
   figure("sections"; "Sections: ground before the slide, bed, soil and water at several times.")),
 
 section("How far to trust these numbers";
@@ -155,7 +156,7 @@ section("How far to trust these numbers";
          [(.percent.friction, .percent.level, .percent.numerical | if . == null then "-" else "\(fixed(1)) %" end), .dominates])
      else "Not studied: \($ARGS.named.uncertainty | sub("^not studied;? ?"; ""))" | paragraph end))),
 
-(if $impulse then section("Empirical cross-check"; $impulse | generic("Empirical relations for impulse waves, against this run")) else empty end),
+section("Empirical cross-check"; $s.impulse_wave // empty | empirical),
 
 section("Provenance";
   ([$particles.provenance, $run.provenance | select(. != null and . != "") | fromjson? | select(.tool)] + [($s.provenance // {})[]]) as $made

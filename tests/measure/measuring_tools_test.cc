@@ -3,7 +3,9 @@
 #include <netcdf.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "measuring_tools.hh"
 
@@ -253,6 +255,29 @@ TEST_F(MeasuringTools, DepositVolumeProfilesAndThickness) {
   EXPECT_STREQ(raster->GetRasterBand(1)->GetUnitType(), "m");
 }
 
+TEST_F(MeasuringTools, DepositVolumeSlices) {
+  make("deposit-volume run.h5 -q --no-provenance -o d.csv --slices sl.csv --at last");
+  const auto lines = lines_of(read_bytes(shop / "sl.csv"));
+  EXPECT_EQ(lines[0], "section,time_s,distance_m,z_m,phase,speed_m_s,adps");
+  // The block at the end is 6 particles wide; the line passes between two of them, and takes those half a spacing
+  // aside.
+  std::size_t soil = 0;
+  double low = 1e9, high = -1e9;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    std::vector<std::string> cells;
+    std::istringstream line(lines[k]);
+    for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 7u);
+    EXPECT_EQ(cells[0] + "," + cells[1], "A,30");
+    if (cells[4] != "soil") continue;
+    ++soil, low = std::min(low, std::stod(cells[2])), high = std::max(high, std::stod(cells[2]));
+    EXPECT_GT(std::stod(cells[6]), 0);
+  }
+  EXPECT_EQ(soil % 50, 0u);  // 10 along the line, 5 above each other, in one or two rows
+  EXPECT_GT(soil, 0u);
+  EXPECT_NEAR(high - low, 18, 1e-4);
+}
+
 TEST_F(MeasuringTools, DepositVolumeRefusals) {
   write_basin_run((shop / "water.h5").string(), false);
   expect_refused(
@@ -333,6 +358,11 @@ TEST_F(MeasuringTools, TwoDimensionsAndSoilAlone) {
   EXPECT_EQ(profile[1], "profile,2,0,0,0,0,0,nan,nan,nan");
   EXPECT_EQ(profile[11].substr(0, 21), "profile,2,20,20,0,0,0");
   EXPECT_NEAR(std::stod(profile[11].substr(22)), 10, 0.05);
+
+  make("deposit-volume slab.h5 -q --no-provenance -o d2.csv --slices sl.csv --at last");
+  const auto slice = lines_of(read_bytes(shop / "sl.csv"));
+  ASSERT_EQ(slice.size(), 51u);  // all particles of a 2-D run
+  EXPECT_EQ(slice[1], "profile,2,11,1,soil,0,2");
 
   expect_refused("gauges slab.h5 -q --maps maps",
                  "gauges: --maps is for 3-D runs (slab.h5 is 2-D) leave it out; --runup has the run-up");

@@ -1,4 +1,4 @@
-// What all five tools have in common on the command line.
+// What all six tools have in common on the command line.
 #include <regex>
 
 #include "tool_runner.hh"
@@ -53,7 +53,8 @@ std::string name_of(const testing::TestParamInfo<std::string>& tool) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Tools, EveryTool, testing::Values("dem2particles", "lgiw-run", "gauges", "deposit-volume",
+INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
+                         testing::Values("dem2particles", "lgiw-run", "gauges", "deposit-volume", "impulse-wave",
                                          "convergence"),
                          name_of);
 

@@ -1,4 +1,4 @@
-// The four tools one after the other, on a 2-D flume and on a 3-D bowl.
+// The tools one after the other, on a 2-D flume and on a 3-D bowl.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,7 +39,8 @@ std::vector<std::string> flume_commands(const std::string& flags) {
       "lgiw-run particles.h5 -o run.h5 --backend cpu --summary run.json --diagnostics diagnostics.csv --xmf run.xmf" +
           flags,
       "gauges run.h5 -o gauges.csv --long --peaks peaks.csv --netcdf gauges.nc --summary gauges.json" + flags,
-      "deposit-volume run.h5 -o slide.csv --profiles profiles.csv --summary slide.json" + flags};
+      "deposit-volume run.h5 -o slide.csv --profiles profiles.csv --summary slide.json" + flags,
+      "impulse-wave run.h5 -o impulse.csv --summary impulse.json" + flags};
 }
 
 std::vector<std::string> bowl_commands(const std::string& flags) {
@@ -51,7 +52,8 @@ std::vector<std::string> bowl_commands(const std::string& flags) {
       "--summary gauges.json" +
           flags,
       "deposit-volume run.h5 -o slide.csv --thickness thickness.tif --profiles profiles.csv --summary slide.json" +
-          flags};
+          flags,
+      "impulse-wave run.h5 -o impulse.csv --summary impulse.json" + flags};
 }
 
 void write_flume(const Workshop& workshop) { write_bytes(workshop / "case.yaml", flume_case); }
@@ -107,7 +109,7 @@ TEST(Pipeline, FlumeSlideThrowsAWaveThatTheNearGaugeSeesFirst) {
   run_all(workshop, flume_commands(" -q"));
 
   const auto run = json_in(workshop, "run.json"), gauges = json_in(workshop, "gauges.json"),
-             slide = json_in(workshop, "slide.json");
+             slide = json_in(workshop, "slide.json"), impulse = json_in(workshop, "impulse.json")["impulse_wave"];
   // Areas: 1 x 0.15 + 0.15^2 / 2 of water, 0.1^2 / 2 of soil, in particles of 0.01^2.
   EXPECT_NEAR(run["particles"]["water"].get<double>(), 1612.5, 0.01 * 1612.5);
   EXPECT_NEAR(run["particles"]["soil"].get<double>(), 50, 2);
@@ -141,6 +143,37 @@ TEST(Pipeline, FlumeSlideThrowsAWaveThatTheNearGaugeSeesFirst) {
   EXPECT_LE(slide["immersed_volume_m3"].get<double>(), soil);
   EXPECT_LT(slide["max_slide_speed_m_s"].get<double>(), std::sqrt(2 * 9.81 * 0.25));  // free fall from its top
   EXPECT_EQ(slide["deposit"]["direction_deg"].get<double>(), 90);
+
+  // The wedge is 0.1 m high and slides from rest: its centre falls 0.1 m at most on its way.
+  const auto& impact = impulse["slide"];
+  EXPECT_NEAR(impact["volume_m3"].get<double>(), slide["immersed_volume_m3"].get<double>(), 0.1 * soil);
+  EXPECT_GT(impact["speed_m_s"].get<double>(), 0.3);
+  EXPECT_LT(impact["speed_m_s"].get<double>(), std::sqrt(2 * 9.81 * 0.1));
+  EXPECT_NEAR(impact["slope_deg"].get<double>(), 45, 10);
+  EXPECT_GT(impact["thickness_m"].get<double>(), 0.02);
+  EXPECT_LT(impact["thickness_m"].get<double>(), 0.1 * std::sqrt(2));
+  EXPECT_DOUBLE_EQ(impact["still_water_depth_m"].get<double>(), 0.15);
+  EXPECT_EQ(impulse["places"][1]["name"], "near");
+  const auto& crest = impulse["places"][1]["estimates"][0];
+  EXPECT_EQ(crest["quantity"], "first_crest_m");
+  EXPECT_GT(crest["predicted"].get<double>(), crest["simulated"].get<double>() / 3);
+  EXPECT_LT(crest["predicted"].get<double>(), crest["simulated"].get<double>() * 3);
+}
+
+TEST(Pipeline, TheSummaryOfMakeHasTheEmpiricalCrossCheck) {
+  const Workshop workshop;
+  fs::create_directory(workshop / "flume");
+  write_bytes(workshop / "flume/case.yaml", flume_case);
+  const std::string out = (workshop / "out").string();
+  const Outcome outcome = workshop.run("env -u MAKEFLAGS -u MAKELEVEL make -C '" LGIW_SOURCE_DIR
+                                       "/pipelines' BIN='" LGIW_BIN_DIR "' CASE_DIR='" +
+                                       (workshop / "flume").string() + "' out='" + out + "' '" + out + "/summary.txt'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  EXPECT_GT(read_bytes(workshop / "out/impulse.csv").size(), 0u);
+  const std::string summary = read_bytes(workshop / "out/summary.txt");
+  EXPECT_NE(summary.find("  empirical        VAW 254, P 0."), std::string::npos) << summary;
+  EXPECT_NE(summary.find("limits of its tests broken: F 0."), std::string::npos) << summary;
+  EXPECT_NE(summary.find(" (simulated 0.0"), std::string::npos) << summary;
 }
 
 TEST(Pipeline, BowlLeavesEveryOutput) {
@@ -151,9 +184,10 @@ TEST(Pipeline, BowlLeavesEveryOutput) {
        {"particles.h5",  "run.h5",        "run.json",      "diagnostics.csv", "run.xmf",        "gauges.csv",
         "peaks.csv",     "gauges.nc",     "runup.csv",     "gauges.json",     "ground.tif",     "max_elevation.tif",
         "max_depth.tif", "max_speed.tif", "arrival.tif",   "arrival_1m.tif",  "arrival_2m.tif", "hazard.tif",
-        "wave.gpkg",     "slide.csv",     "thickness.tif", "profiles.csv",    "slide.json"})
+        "wave.gpkg",     "slide.csv",     "thickness.tif", "profiles.csv",    "slide.json",     "impulse.csv",
+        "impulse.json"})
     EXPECT_GT(read_bytes(workshop / name).size(), 0u) << name;
-  EXPECT_EQ(workshop.contents().size(), 25u) << "and nothing besides the case and its DEM";
+  EXPECT_EQ(workshop.contents().size(), 27u) << "and nothing besides the case and its DEM";
 }
 
 void expect_same_bytes(const std::function<void(const Workshop&)>& write_inputs,

@@ -14,6 +14,7 @@
 #include "measure/comparison.hh"
 #include "measure/csv_table.hh"
 #include "measure/section_profiles.hh"
+#include "measure/section_slice.hh"
 #include "measure/slide_history.hh"
 #include "measure/surface_sampling.hh"
 #include "measure/tool_outputs.hh"
@@ -25,7 +26,7 @@ using namespace lgiw;
 using nlohmann::ordered_json;
 
 struct Options : MeasuringOptions {
-  std::string profiles, thickness;
+  std::string profiles, slices, thickness;
   std::vector<std::string> at{"first", "last"};
   double adps = 0;  // 0: the case's
 };
@@ -89,6 +90,12 @@ void add_profiles(CsvTable& table, const RunReader& run, const Frame& frame, con
       table.add(sections[s].name, frame.time, p.stations[k].distance, p.stations[k].x + origin[0],
                 p.stations[k].y + origin[1], p.ground[k], p.bed[k], p.soil[k], p.water[k], p.slip[k]);
   }
+}
+
+void add_slices(CsvTable& table, const RunReader& run, const Frame& frame, const std::vector<Section>& sections) {
+  for (const Section& section : sections)
+    for (const SliceParticle& p : section_slice(run.header(), frame, section))
+      table.add(section.name, frame.time, p.distance, p.z, std::string(p.soil ? "soil" : "water"), p.speed, p.adps);
 }
 
 double largest(const std::vector<SlideState>& states, double SlideState::*value) {
@@ -230,8 +237,8 @@ int run(const Options& options, const std::string& command) {
   const Case c = case_of_run(header, options.run, options.case_file);
   const double threshold = options.adps > 0 ? options.adps : c.deposit.adps_threshold;
   const std::vector<Section> sections = chosen_sections(c, particles);
-  LGIW_VALIDATE(options.profiles.empty() || !sections.empty(), "there is no section", "profiles lie along sections",
-                "add sections to the case and pass it with --case");
+  LGIW_VALIDATE((options.profiles.empty() && options.slices.empty()) || !sections.empty(), "there is no section",
+                "profiles and slices lie along sections", "add sections to the case and pass it with --case");
   LGIW_VALIDATE(options.thickness.empty() || particles.dimension == 3, "--thickness is for 3-D runs",
                 options.run + " is 2-D", "leave it out; --profiles has the deposit");
   const std::vector<std::size_t> profile_frames = chosen_frames(options.at, run);
@@ -241,12 +248,14 @@ int run(const Options& options, const std::string& command) {
   std::vector<std::string> inputs{options.run, options.case_file};
   inputs.insert(inputs.end(), options.compare.begin(), options.compare.end());
   ToolOutputs results("deposit-volume", command, options.common, inputs);
-  results.check({output, options.profiles, options.thickness, options.summary, options.comparison_output()});
+  results.check(
+      {output, options.profiles, options.slices, options.thickness, options.summary, options.comparison_output()});
   results.hash_inputs();
 
   const SlideHistory history(header, run.frame(run.frame_count() - 1), threshold);
   std::vector<SlideState> states;
   CsvTable profiles({"section", "time_s", "distance_m", "x", "y", "ground_m", "bed_m", "soil_m", "water_m", "slip_m"});
+  CsvTable slices({"section", "time_s", "distance_m", "z_m", "phase", "speed_m_s", "adps"});
   {
     Progress progress(options.common.show_progress(), "slide");
     for (std::size_t k = 0; k < run.frame_count(); ++k) {
@@ -254,12 +263,15 @@ int run(const Options& options, const std::string& command) {
       states.push_back(history.state(frame));
       if (!options.profiles.empty() && std::binary_search(profile_frames.begin(), profile_frames.end(), k))
         add_profiles(profiles, run, frame, sections, threshold);
+      if (!options.slices.empty() && std::binary_search(profile_frames.begin(), profile_frames.end(), k))
+        add_slices(slices, run, frame, sections);
       progress.update(double(k + 1) / double(run.frame_count()));
     }
   }
 
   results.write(output, history_table(states));
   results.write(options.profiles, profiles);
+  results.write(options.slices, slices);
   if (!options.thickness.empty())
     write_geotiff(options.thickness, header.map, history.thickness(), {particles.origin, particles.crs_wkt}, "m",
                   "thickness of the slide at the end", options.common.overwrite);
@@ -290,7 +302,7 @@ int main(int argc, char** argv) {
       ->type_name("STRAIN")
       ->check(CLI::PositiveNumber)
       ->group(measured);
-  app.add_option("--at", options.at, "Times of the profiles: first, last or seconds (the nearest frame)")
+  app.add_option("--at", options.at, "Times of the profiles and slices: first, last or seconds (the nearest frame)")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -303,6 +315,10 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--profiles", options.profiles, "Table of bed, soil, water and slip line along the sections (CSV)")
+      ->type_name("FILE")
+      ->group(outputs);
+  app.add_option("--slices", options.slices,
+                 "Table of the particles within half a spacing of the sections: phase, speed, strain (CSV)")
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--thickness", options.thickness, "Thickness of the slide at the end (GeoTIFF)")

@@ -1,13 +1,10 @@
 # A gorge such as that of the Lancang at Huangtian, as an Arc/Info ASCII grid: awk -f gorge.awk > gorge.asc
 #
 # Synthetic: no survey of the site is open. Made to the numbers that are printed of it (README.md); only its CRS and its corner
-# are near the site. A valley floor 160 m wide at 985 m comes from the east, bends, and runs south between banks of 35 degrees. On its
-# right bank, in the middle of the map, lies the old deposit that will slide: a spur 115 m high whose base is the plane of the bank.
+# are near the site. A valley floor 160 m wide at 985 m comes from the east, bends, and runs south between banks of 35 degrees.
 BEGIN {
   side = 3000; cell = 10; west = 610000; south = 2729000                 # m; EPSG:32647
   bed = 985; half_width = 80; steep = 0.70021; upper = 0.46631; knee = 1600  # m; tangents of 35 and 25 degrees; m
-  height = 115; toe = 80; full = 380; head = 814; end = 1314             # m; the spur, by distance from the foot of the bank
-  inner = 230; outer = 370                                               # m; half its width at the top and at the base
   n = split("700 -200 1200 150 1600 600 1700 1000 1700 2000 1790 2260 1990 2460 2270 2560 2650 2600 3200 2500", axis, " ") / 2
 
   cells = side / cell
@@ -15,8 +12,7 @@ BEGIN {
   for (row = cells - 1; row >= 0; --row) {
     for (column = 0; column < cells; ++column) {
       x = (column + 0.5) * cell; y = (row + 0.5) * cell
-      printf "%.2f%s", bank(distance_to_axis(x, y) - half_width) + spur(1700 - half_width - x, y - 1500), \
-        column < cells - 1 ? " " : "\n"
+      printf "%.2f%s", bank(distance_to_axis(x, y) - half_width), column < cells - 1 ? " " : "\n"
     }
   }
 }
@@ -25,13 +21,6 @@ function bank(from_foot,   corner) {
   corner = (knee - bed) / steep
   return from_foot < 0 ? bed : from_foot < corner ? bed + steep * from_foot : knee + upper * (from_foot - corner)
 }
-
-# Rises from its toe, is of one height up to its head, and runs out into the slope above.
-function spur(from_foot, along) {
-  return height * ramp(from_foot, toe, full) * ramp(-from_foot, -end, -head) * ramp(-sqrt(along * along), -outer, -inner)
-}
-
-function ramp(x, from, to) { return x <= from ? 0 : x >= to ? 1 : (x - from) / (to - from) }
 
 function distance_to_axis(x, y,   k, ax, ay, bx, by, t, d, least) {
   for (k = 1; k < n; ++k) {
