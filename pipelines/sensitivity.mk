@@ -24,8 +24,8 @@ uncertainty_line = if [ -e $(sensitivity_json) ] && ! [ $(out)/run.h5 -nt $(sens
 .PHONY: sensitivity sensitivity-results
 # What can be varied is known once the case itself has been run: hence the second make.
 sensitivity: $(out)/summary.json $(sensitivity_plan)
-	@$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) sensitivity-results
-	@$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) $(out)/summary.txt $(out)/report.html
+	@$(again) sensitivity-results
+	@$(again) $(out)/summary.txt $(out)/report.html
 	@cat $(sensitivity)/sensitivity.txt
 
 # Written only when it changes, so that another step reruns the variants and the same one does not.

@@ -6,19 +6,20 @@
 # spread of wave heights, run-up and volumes), spacings.txt (what each run cost and gave, beside reference.csv of the case folder,
 # where there is one), maps of the differences from the finest run, and figures of all runs together.
 
-.PHONY: spacings spacings-results $(addprefix spacing-,$(DP))
-again = $(MAKE) --no-print-directory -f $(here)/Makefile $(if $(CASE_DIR),CASE_DIR=$(CASE_DIR),CASE=$(CASE))
+.PHONY: spacings spacings-results
 
 ifdef several_spacings
+spacings_in_order := $(shell printf '%s\n' $(DP) | sort -gr)
+
 # Runs one behind the other: each takes all cores. What they hold is known once they are there: hence the other makes.
 spacings: tools
-	@for dp in $(DP); do $(again) DP=$$dp case; done
+	@for dp in $(spacings_in_order); do $(again) DP=$$dp case; done
 	@$(again) DP='$(DP)' spacings-results
 	@cat $(out)/spacings.txt
 	@printf '\nFiles in %s:\n' $(out)
 	@ls -C -w 100 $(out)
 
-folders := $(foreach dp,$(DP),$(out)/dp$(dp))
+folders := $(foreach dp,$(spacings_in_order),$(out)/dp$(dp))
 reference := $(wildcard $(case_dir)/reference.csv)
 spacing_figures := $(if $(gauges),gauges heights) $(if $(slide),slide $(if $(sections),final-sections))
 spacings-results: $(out)/spacings.txt $(patsubst %,$(out)/by-spacing-%.png,$(spacing_figures)) $(if $(maps),$(out)/differences.png)
@@ -35,8 +36,8 @@ $(out)/spacings.txt: $(here)/spacings.jq $(out)/spacings.json $(out)/convergence
 	  --rawfile reference $(or $(reference),/dev/null) -f $< | column -t -s "$$(printf '\t')" > $@
 
 # Scripts see the spacings as words, finest last, and reference.csv ("" where there is none).
-$(out)/by-spacing-%.png: $(here)/figures/by-spacing-%.gp $(here)/figures/common.gp $(out)/spacings.json
-	@echo "figure $(@F)"; gnuplot -e "case='$(CASE)'; out='$(out)'; spacings='$(DP)'; reference='$(reference)'" \
+$(out)/by-spacing-%.png: $(here)/figures/by-spacing-%.gp $(here)/figures/common.gp $(out)/spacings.json $(reference)
+	@echo "figure $(@F)"; gnuplot -e "case='$(CASE)'; out='$(out)'; spacings='$(spacings_in_order)'; reference='$(reference)'" \
 	  -e "set loadpath '$(here)/figures'; set output '$@'" $<
 
 $(out)/differences.png: $(here)/figures/differences.gp $(here)/figures/common.gp $(out)/convergence.json | $(work)

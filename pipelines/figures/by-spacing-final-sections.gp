@@ -13,18 +13,17 @@ difference(dp, column) = sprintf("< awk -F, -v c=%d '!/^#/ && $1 == \"%s\" {if (
   ."x = d[2, k]; while (j < m[1] - 1 && d[1, j + 1] < x) ++j; if (z[2, k] == \"nan\" || z[1, j] == \"nan\" || z[1, j + 1] == \"nan\") {print \"\"; continue}; " \
   ."u = (x - d[1, j]) / (d[1, j + 1] - d[1, j]); print x \",\" z[2, k] - z[1, j] - u * (z[1, j + 1] - z[1, j])}}' '%s' '%s'", \
   column, section, profiles(finest), profiles(dp))
-colour(k) = word(line_colours, (k - 1) % words(line_colours) + 1)
 stats rows(profiles(finest)) using 3 nooutput; set xrange [0:STATS_max]
 eval canvas(1500, 1000)
 set multiplot title case.": section ".section." at the end by particle spacing" font ",17"
 set lmargin at screen 0.06; set rmargin at screen 0.985
 set tmargin at screen 0.93; set bmargin at screen 0.37; set format x ""; set ylabel "elevation (m)" offset 1; set key top right
 plot final(finest) using 3:7 with lines lc rgb "#505050" lw 1.5 title "bed", final(finest) using 3:6 with lines lc rgb "#505050" dt 3 title "ground before", \
-  for [k = 1:n] final(word(spacings, k)) using 3:8 with lines lw 2 lc rgb colour(k) title "soil, dp ".word(spacings, k)." m", \
-  for [k = 1:n] final(word(spacings, k)) using 3:9 with lines lw 2 dt 4 lc rgb colour(k) title "water", \
-  for [k = 1:n] final(word(spacings, k)) using 3:10 with lines lw 1.2 dt 2 lc rgb colour(k) title (k == n ? "slip line" : "")
+  for [k = 1:n] final(word(spacings, k)) using 3:8 with lines lw 2 lc rgb line_colour(k) title "soil, dp ".word(spacings, k)." m", \
+  for [k = 1:n] final(word(spacings, k)) using 3:9 with lines lw 2 dt 4 lc rgb line_colour(k) title "water", \
+  for [k = 1:n] final(word(spacings, k)) using 3:10 with lines lw 1.2 dt 2 lc rgb line_colour(k) title (k == n ? "slip line" : "")
 set tmargin at screen 0.34; set bmargin at screen 0.07; set format x "%g"; set xlabel "distance along section (m)" offset 0, 0.4
 set ylabel "less the finest (m)"; set xzeroaxis lc rgb "#808080"; set key top right
-plot for [k = 1:n - 1] difference(word(spacings, k), 8) using 1:2 with lines lw 2 lc rgb colour(k) title "soil, dp ".word(spacings, k)." m", \
-  for [k = 1:n - 1] difference(word(spacings, k), 9) using 1:2 with lines lw 2 dt 4 lc rgb colour(k) title "water"
+plot for [k = 1:n - 1] difference(word(spacings, k), 8) using 1:2 with lines lw 2 lc rgb line_colour(k) title "soil, dp ".word(spacings, k)." m", \
+  for [k = 1:n - 1] difference(word(spacings, k), 9) using 1:2 with lines lw 2 dt 4 lc rgb line_colour(k) title "water"
 unset multiplot

@@ -16,6 +16,6 @@ do for [i = 1:words(names)] {
   if (i == 1) { set key at screen 0.5, screen 1 - 58.0 / (120 + 230 * down) center center horizontal width 2 } else { unset key }
   set label 1 name at graph 0.03, 0.9 font ",14"
   plot for [k = 1:words(spacings)] rows(series(word(spacings, k))) using 1:(strcol(2) eq name ? $5 : NaN) with lines \
-    lw (k == words(spacings) ? 2.2 : 1.4) lc rgb word(line_colours, (k - 1) % words(line_colours) + 1) title "dp ".word(spacings, k)." m"
+    lw (k == words(spacings) ? 2.2 : 1.4) lc rgb line_colour(k) title "dp ".word(spacings, k)." m"
 }
 unset multiplot

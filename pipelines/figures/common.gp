@@ -1,6 +1,7 @@
 # What all figures share: terminal, line weights, and the colours of the field: water blue, soil brown, bed grey.
 blue = "#2b7bba"; pale_blue = "#a9d0ef"; brown = "#a0622d"; grey = "#8c8c8c"; red = "#c00000"
 line_colours = "#8c8c8c #2b7bba #c00000 #2e7d32 #6a3d9a"  # of several runs
+line_colour(k) = word(line_colours, (k - 1) % words(line_colours) + 1)
 canvas(width, height) = sprintf("set terminal pngcairo noenhanced size %d, %d font 'DejaVu Sans,13'", width, height)
 set encoding utf8
 set datafile separator ","
@@ -17,3 +18,6 @@ column_words(file, condition, column) = \
   system(sprintf("awk -F, '!/^#/ && ++n > 1 && (%s) && !seen[$%d]++ {print $%d}' '%s'", condition, column, column, file))
 # The rows of a table below its comment and header.
 rows(file) = sprintf("< awk '!/^#/ && ++n > 1' '%s'", file)
+# Column k of what reference.csv says of a quantity; "" where it says nothing, or there is none.
+measured(reference, name, quantity, k) = reference eq "" ? "" : \
+  system(sprintf("awk -F, '$1 == \"%s\" && $2 == \"%s\" {print $%d}' '%s'", name, quantity, k, reference))
