@@ -228,7 +228,7 @@ class PairNeighbourhood {
   PairNeighbourhood(Pass& pass, Memory& memory) : near_(pass.grid, pass.parameters.h), memory_(memory) {
     pass.copies.water = pass.water, pass.copies.soil = pass.soil;
     pass.reads(*this);
-    pass.sums([&](auto& field) { add_sum(field); });
+    pass.sums([&](auto& field) { sums_.add(field); });
   }
   template <class View, class... Fields>
   void operator()(View& view, Fields&... fields) {
@@ -245,7 +245,7 @@ class PairNeighbourhood {
     std::size_t candidates = std::size_t(end - begin);
     for (const auto& [first, last] : memory_.rows) candidates += phase_.start[last] - phase_.start[first];
     const std::size_t room = Phase::whole_vectors(candidates) + widest_lanes;
-    T* to = static_cast<T*>(memory_.take(room * (phase_.fields + sums_) * sizeof(T)));
+    T* to = static_cast<T*>(memory_.take(room * (phase_.fields + sums_.fields) * sizeof(T)));
     if (memory_.index.size() < room) memory_.index.resize(room);
     T* copies[Phase::most_fields];
     for (int f = 0; f < phase_.fields; ++f, to += room) *phase_.slot[f] = copies[f] = to;
@@ -256,44 +256,34 @@ class PairNeighbourhood {
       last_ = copy_near<Tr::Machine::lanes>(box, phase_.fields, phase_.from, phase_.start[first], phase_.start[last],
                                             copies, last_, memory_.index.data());
     *phase_.n = phase_.fill_up(copies, last_, box, near_.reach());
-    for (int f = 0; f < sums_; ++f, to += room) {
-      *sum_slot_[f] = to;
+    for (int f = 0; f < sums_.fields; ++f, to += room) {
+      *sums_.slot[f] = to;
       std::fill(to, to + *phase_.n, T(0));
     }
   }
   void clear_sums(int i) const {
-    for (int f = 0; f < sums_; ++f) sum_to_[f][i] = 0;
+    for (int f = 0; f < sums_.fields; ++f) sum(f)[i] = 0;
   }
   void give_back() const {
     const int* index = memory_.index.data();
-    for (int f = 0; f < sums_; ++f) {
-      T* to = sum_to_[f];
-      const T* from = *sum_slot_[f];
+    for (int f = 0; f < sums_.fields; ++f) {
+      T* to = sum(f);
+      const T* from = *sums_.slot[f];
       for (int j = first_; j < last_; ++j) to[index[j]] += from[j];
     }
   }
 
  private:
   using Phase = CopiedPhase<Tr>;
-  static constexpr int most_sums = 8;
 
-  template <class U>
-  void add_sum(U*& field) {
-    sum_slot_[sums_] = &field;
-    sum_to_[sums_++] = field;
-  }
-  template <class U, int size>
-  void add_sum(U* (&list)[size]) {
-    for (int k = 0; k < size; ++k) add_sum(list[k]);
-  }
+  /// The field of the phase itself that the f-th sum goes to.
+  T* sum(int f) const { return const_cast<T*>(sums_.from[f]); }
 
   const NearCells<T, D> near_;
   Memory& memory_;
-  int first_ = 0, last_ = 0, sums_ = 0;  // copies of later cells [first_, last_)
-  T** sum_slot_[most_sums];
-  T* sum_to_[most_sums];
-  std::vector<Phase> phases_ = std::vector<Phase>(1);
-  Phase& phase_ = phases_[0];
+  int first_ = 0, last_ = 0;  // copies of later cells [first_, last_)
+  std::vector<Phase> lists_ = std::vector<Phase>(2);
+  Phase &phase_ = lists_[0], &sums_ = lists_[1];  // what is copied, and what comes back
 };
 
 }  // namespace lgiw
