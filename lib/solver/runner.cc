@@ -128,6 +128,7 @@ class Runner {
       refuse_unfinished();
     initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
     simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
+    if (options.wrap) simulation_ = options.wrap(std::move(simulation_));
     log("model: " + simulation_->description());
     describe();
     for (const std::string& line : simulation_->left_out()) log("left out: " + line);
