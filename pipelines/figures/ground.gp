@@ -9,7 +9,8 @@ set grid front lc rgb "#ffffff" lw 0.5 dt 3
 set key outside bottom center horizontal width 2
 set style textbox opaque noborder fillcolor rgb "#40ffffff" margins 0.4,0.4
 map_height(width) = int(width * 0.77 * (y1 - y0) / (x1 - x0))
-light(s) = 60 + 0.76 * s
+# Slopes towards the light are grey as well: white looks as if nothing were known there.
+light(s) = 60 + 0.62 * s
 hillshade = work."/hillshade.xyz"
 present(file) = int(system(sprintf("test -s '%s' && echo 1 || echo 0", file)))
 # Gauges as x, y, name; ends of sections as x, y, name.
