@@ -20,7 +20,6 @@ _lgiw_endings() {
 _lgiw_files() {
   local word=$1 ending
   shift
-  compopt -o filenames 2>/dev/null
   compgen -d -- "$word"
   [[ $# -gt 0 ]] || compgen -f -- "$word"
   for ending; do compgen -f -X "!*.$ending" -- "$word"; done
@@ -51,22 +50,26 @@ _lgiw() {
   done <<<"${_lgiw_help[$tool]:-}"
 
   COMPREPLY=()
-  local takes=
+  local takes= files=+o
   [[ $about =~ ^\ ([A-Z][^\ ]*) && ${BASH_REMATCH[1]} != *: ]] && takes=${BASH_REMATCH[1]}
   if [[ $takes =~ \{(.*)\} ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${BASH_REMATCH[1]//,/ }" -- "$word")
   elif [[ $takes == FOLDER ]]; then
-    compopt -o filenames 2>/dev/null
+    files=-o
     mapfile -t COMPREPLY < <(compgen -d -- "$word")
   elif [[ $takes == FILE ]]; then
+    files=-o
     mapfile -t COMPREPLY < <(_lgiw_files "$word" $(_lgiw_endings "$about"))
   elif [[ -n $takes ]]; then
     : # a number or a name, which nobody can know
   elif [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${options[*]}" -- "$word")
   elif [[ -n $positional ]]; then
+    files=-o
     mapfile -t COMPREPLY < <(_lgiw_files "$word" $(_lgiw_endings "$positional"))
   fi
+  # Folders end in /, blanks are quoted; a test calls this where nothing is being completed.
+  compopt $files filenames 2>/dev/null || :
 }
 
 complete -F _lgiw dem2particles lgiw-run gauges deposit-volume impulse-wave convergence

@@ -4,7 +4,7 @@ pvpython view.py FOLDER PICTURE.png [TIME] a picture of the run in FOLDER (of ma
 pvpython view.py FOLDER PICTURE.png all    one of each frame, PICTURE.0000.png and so on
 pvpython view.py FOLDER STATE.pvsm         a state for the window: paraview --state=STATE.pvsm
 
-Water is blue by its speed, soil brown by its plastic strain, the bed grey. Without a display, put `xvfb-run -a` before pvpython.
+Water is blue by its speed, soil brown by its plastic strain, the bed grey. Without a display, put `xvfb-run -a -s -noreset` before pvpython.
 """
 import json
 import math
