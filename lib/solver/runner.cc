@@ -24,6 +24,7 @@
 #include "seeding/run_estimate.hh"
 #include "solver/checkpoint.hh"
 #include "solver/diagnostics.hh"
+#include "solver/envelope.hh"
 #include "solver/error_budget.hh"
 #include "solver/make_setup.hh"
 #include "solver/neighbour_count.hh"
@@ -133,6 +134,8 @@ class Runner {
     resolution_ = resolution_of(c, data);
     log(text_of(resolution_));
     warnings_ = warnings_of(resolution_);
+    outside_ = warnings_of(envelope_of(c, model_));
+    warnings_.insert(warnings_.end(), outside_.begin(), outside_.end());
     for (const std::string& warning : warnings_) log("warning: " + warning);
   }
 
@@ -349,8 +352,8 @@ class Runner {
     if (retaken_.tries > 0) why << ", also with 1/" << (1 << retaken_.tries) << " of the time step";
     if (fs::exists(checkpoint_path(options_.output)))
       then << "the last good state is " << checkpoint_path(options_.output) << "; ";
-    then << "frames up to the failure are in " << partial_path(options_.output)
-         << "; try a smaller numerics.cfl or a larger water.sound_speed";
+    then << "frames up to the failure are in " << partial_path(options_.output) << "; "
+         << (outside_.empty() ? "try a smaller numerics.cfl or a larger water.sound_speed" : outside_.front());
     throw WorkError(what.str(), why.str(), then.str());
   }
 
@@ -639,7 +642,7 @@ class Runner {
   std::string identity_, resume_note_;
   Checkpoint resumed_;
   Resolution resolution_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, outside_;  // outside_: of the envelope
   double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
          stepping_earlier_ = 0, diagnostics_seconds_ = 0, set_up_seconds_ = 0;
   struct Kept {
@@ -695,7 +698,11 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;
   j["particle_steps_per_s_assumed"] = particle_steps_per_s;
   j["resolution"] = json_of(resolution);
-  j["warnings"] = warnings_of(resolution);
+  const std::vector<EnvelopeAxis> envelope = envelope_of(c, p);
+  std::vector<std::string> warnings = warnings_of(resolution);
+  for (const std::string& warning : warnings_of(envelope)) warnings.push_back(warning);
+  j["warnings"] = warnings;
+  j["envelope"] = json_of(envelope);
   j["expected_error"] = expected_error(resolution.slide_median, resolution.deepest_water).text;
   return j.dump(1);
 }
