@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   add_common_options(app, options.common, library_versions);
   app.footer(
-      "Example:\n  dem2particles case.yaml --dry-run\n  dem2particles case.yaml -o particles.h5 --set "
+      "Examples:\n  $ dem2particles case.yaml --dry-run\n  $ dem2particles case.yaml -o particles.h5 --set "
       "particle_spacing=10");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });
