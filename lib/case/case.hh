@@ -226,7 +226,7 @@ struct Case {
 /// Reads and validates a case. `path` "-" is stdin. Throws InputError with `path:line:` in front for syntax, unknown
 /// keys (naming the nearest known one), values out of the range of their unit, and impossible combinations. Opens no
 /// other file. `overrides` are `key.sub=value` strings from --set, applied before validation: the value is YAML, list
-/// items are named by number from 0 (`gauges.0.x=12`), and `null` removes a key or section.
+/// items are named by number from 0 (`gauges.0.x=12`), `list+=item` adds one, and `null` removes a key or section.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 Case parse_case(const std::string& text, const std::string& name_for_messages,
                 const std::vector<std::string>& overrides = {});
