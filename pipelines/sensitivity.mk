@@ -47,8 +47,8 @@ $(sensitivity)/%/overrides: $(sensitivity_plan)
 	@jq -r '.variants["$*"] | map("--set " + .) | join(" ")' $< > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
-$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(dem2particles)
-	$(dem2particles) $(case) $$(cat $<) -o $@ -O -q
+$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(user_maps) $(dem2particles)
+	$(dem2particles) $(case) $(set_flags) $$(cat $<) -o $@ -O -q
 
 $(sensitivity)/%/run.h5 $(sensitivity)/%/run.json: $(sensitivity)/%/particles.h5 $(lgiw_run)
 	$(lgiw_run) $< -o $(@D)/run.h5 -O --progress --summary $(@D)/run.json $(RUN_FLAGS)

@@ -39,7 +39,7 @@ struct Terrain {
   bool fill_voids = false;             // true: interpolate; false: refuse a window with voids
   double spike_threshold = 0;  // m above or below all neighbours that makes a cell a spike; 0: 3 pixels at 60 degrees
   bool remove_spikes = false;
-  std::optional<std::array<double, 4>> window;  // x_min, y_min, x_max, y_max; default: the common extent
+  std::optional<std::array<double, 4>> window;  // x_min, y_min, x_max, y_max; default: see case-reference.yaml
   // Analytic terrain instead of rasters: the bed z(x) as a polyline, the same for all y.
   std::vector<Point2> profile;
   double width = 0;  // m in y, 3-D analytic scenes only; domain y from 0 to width
