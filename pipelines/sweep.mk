@@ -12,7 +12,9 @@
 
 sweep_file := $(case_dir)/$(or $(SWEEP),sweep.yaml)
 sweep_work := $(sweep)/.work
-sweep_words = $(if $(CASE_DIR),CASE_DIR=$(CASE_DIR),CASE=$(CASE)) $(foreach word,OUT DP TERRAIN SITE SWEEP,$(if $($(word)),$(word)=$($(word))))
+sweep_words = $(if $(CASE_DIR),CASE_DIR=$(CASE_DIR),CASE=$(CASE)) \
+  $(if $(OUT),OUT=$(abspath $(OUT))) $(foreach word,DP SWEEP,$(if $($(word)),$(word)=$($(word)))) \
+  $(foreach word,TERRAIN SITE,$(if $($(word)),$(word)=$(call user_map,$(word))))
 # For the shell: writes what it is given to a file, unless that holds it already.
 keep := keep() { cat > "$$1.new"; if cmp -s "$$1.new" "$$1"; then rm "$$1.new"; else mv "$$1.new" "$$1"; fi; };
 
@@ -34,6 +36,7 @@ sweep-plan: $(dem2particles) $(computed_terrain)
 
 sweep-list: tools
 	+@$(again) BIN='$(bin)' sweep-plan
+	@mkdir -p $(here)/out  # where the jobs' logs go
 	@jq -r '.runs | to_entries[] | "\(.key + 1)\t\(.value.name)"' $(sweep)/runs.json
 	@n=$$(jq '.runs | length' $(sweep)/runs.json); words='$(strip $(sweep_words))'; printf '\n%s\n%s\n%s\n' 'Under Slurm, with the folders that all nodes see:' \
 	  "  job=\$$(sbatch --parsable --chdir=$(here) --array=1-$$n $(here)/sweep.sbatch $$words)" \

@@ -3,12 +3,13 @@ load "common.gp"
 load "ground.gp"
 set datafile separator whitespace
 height = work."/envelope_height.xyz"; arrival = work."/envelope_arrival.xyz"
-stats height using 3 nooutput; top = STATS_max > 0 ? STATS_max : 1
-stats arrival using 3 nooutput; latest = STATS_records > 0 && STATS_max > 0 ? STATS_max : 1
+# Not by stats, which wants a value: where no wave has arrived there is none.
+largest(file) = real(system(sprintf("awk 'BEGIN {m = 1e-6} NF == 3 && $3 != \"nan\" && $3 > m {m = $3} END {printf \"%%.6f\", m}' '%s'", file)))
+top = largest(height); latest = largest(arrival)
 gauges = out."/peaks.csv"; has_gauges = present(gauges)
 panel = int(700 * (y1 - y0) / (x1 - x0)) + 60
 eval canvas(1700, 2 * panel + 60)
-set multiplot layout 2, 2 title case.": over all runs of the sweep" font ",17" margins 0.06, 0.95, 0.05, 1 - 80.0 / (2 * panel + 60) spacing 0.1, 80.0 / (2 * panel + 60)
+set multiplot layout 2, 2 title case.": over all runs of the sweep" font ",17" margins 0.06, 0.94, 0.05, 1 - 80.0 / (2 * panel + 60) spacing 0.12, 80.0 / (2 * panel + 60)
 unset xlabel; unset ylabel
 unset key
 base = "hillshade using 1:2:(light($3)):(light($3)):(0.97 * light($3)) with rgbimage"

@@ -14,7 +14,7 @@ eval canvas(110 + 430 * across, 90 + 260 * down)
 set multiplot layout down, across title case.": results of the sweep" font ",17" \
   margins 80.0 / (110 + 430 * across), 0.98, 60.0 / (90 + 260 * down), 1 - 60.0 / (90 + 260 * down) spacing 0.09 / across * 2, 0.03
 set offsets graph 0.08, graph 0.08, graph 0.08, 0
-set yrange [*<0:0<*]
+set yrange [*<0:1e-6<*]
 do for [i = 1:down] {
   do for [k = 1:across] {
     key_name = word(keys, k)
