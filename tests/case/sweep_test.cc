@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "base/error.hh"
 #include "case/case.hh"
 
@@ -124,6 +126,21 @@ TEST(Sweep, RefusesInOneLineWithItsPlace) {
       "one in runs");
   EXPECT_EQ(message_of("water.level: [735]\n", {"soil.frction=3"}).rfind("--set soil.frction=3: ", 0), 0u)
       << "an unsound case is not the sweep's fault";
+}
+
+TEST(Sweep, CasesAndSweepsOfThePipelineAreSound) {
+  int cases = 0, sweeps = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(LGIW_SOURCE_DIR "/pipelines")) {
+    const std::string path = folder.path().string();
+    if (!std::filesystem::exists(path + "/case.yaml")) continue;
+    EXPECT_NO_THROW(read_case(path + "/case.yaml")) << path;
+    ++cases;
+    if (!std::filesystem::exists(path + "/sweep.yaml")) continue;
+    EXPECT_NO_THROW(EXPECT_GT(read_sweep(path + "/sweep.yaml", path + "/case.yaml").runs.size(), 1u)) << path;
+    ++sweeps;
+  }
+  EXPECT_GE(cases, 4);
+  EXPECT_GE(sweeps, 1);
 }
 
 }  // namespace
