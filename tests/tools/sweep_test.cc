@@ -203,6 +203,16 @@ TEST_F(Sweep, TerrainAndSiteAreMapsOfTheUsersOwn) {
   const json info = json::parse(shop.run("gdalinfo -json out/on-coarse-local/ground.tif").out);
   EXPECT_GT(info["size"][0].get<int>() * info["geoTransform"][1].get<double>(), 500);
 
+  // The same again makes nothing again; another map of the same name does.
+  const std::string goal = "SITE=local.asc '" + folder + "/particles.h5'";
+  const auto before = date("on-coarse-local/particles.h5");
+  ASSERT_EQ(make("TERRAIN=coarse.asc " + goal).status, 0);
+  EXPECT_EQ(date("on-coarse-local/particles.h5"), before);
+  fs::create_directory(shop / "other");
+  fs::rename(shop / "coarse.asc", shop / "other/coarse.asc");
+  ASSERT_EQ(make("TERRAIN=other/coarse.asc " + goal).status, 0);
+  EXPECT_NE(date("on-coarse-local/particles.h5"), before);
+
   const Outcome missing = make("TERRAIN=nowhere.tif");
   EXPECT_EQ(missing.status, 2);
   EXPECT_NE(
