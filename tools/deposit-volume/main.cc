@@ -292,7 +292,7 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--slices", options.slices,
-                 "Table of the particles within half a spacing of the sections: phase, speed, strain (CSV)")
+                 "Table of the particles within a spacing of the sections: phase, speed, strain (CSV)")
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--thickness", options.thickness, "Thickness of the slide at the end (GeoTIFF)")
