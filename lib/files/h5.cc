@@ -24,6 +24,9 @@ constexpr hsize_t deflate_limit = 1100;
 void set_up_library() {
   static const bool once = [] {
     H5dont_atexit();
+    // A file must neither make HDF5 load code nor read other files.
+    H5PLset_loading_state(0);
+    H5Lunregister(H5L_TYPE_EXTERNAL);
     return true;
   }();
   (void)once;
@@ -134,6 +137,10 @@ Handle open_for_reading(hid_t file, const std::string& path, const std::string& 
   if (!link_exists(file, name)) read_failed(path, name, "there is no such dataset");
   Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
   if (!dataset) read_failed(path, name, reason());
+  const Handle list(H5Dget_create_plist(dataset.id()));
+  if (!list) read_failed(path, name, reason());
+  if (H5Pget_layout(list.id()) == H5D_VIRTUAL || H5Pget_external_count(list.id()) != 0)
+    read_failed(path, name, "its values lie in another file");
   return dataset;
 }
 
@@ -237,6 +244,23 @@ File File::create(const std::string& path) {
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()));
   if (!file) write_failed(path, "", reason());
   return File(std::move(file), path);
+}
+
+File File::create_journaled(const std::string& path) {
+  set_up_library();
+  const Handle creation = creation_properties(H5P_FILE_CREATE);
+  const Handle access = access_properties(true);
+  auto journal = std::make_shared<Journal>();
+  journal->path = journal_path(path);
+  set_journaled_driver(access.id(), journal);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()));
+  if (!file) write_failed(path, "", reason());
+  return File(std::move(file), path, std::move(journal));
+}
+
+void File::renamed(const std::string& path) {
+  path_ = path;
+  if (journal_) journal_->path = journal_path(path);
 }
 
 namespace {
@@ -515,6 +539,7 @@ double File::number_attribute(const std::string& object, const std::string& name
 }
 
 void File::flush() {
+  arm();
   if (H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL) < 0) write_failed(path_, "", reason());
 }
 
@@ -523,6 +548,7 @@ void File::close() {
   unsigned intent = 0;
   H5Fget_intent(handle_.id(), &intent);
   if (intent & H5F_ACC_RDWR) flush();
+  arm();
   if (H5Fclose(handle_.release()) < 0) write_failed(path_, "", reason());
 }
 

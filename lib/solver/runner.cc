@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/atomic_file.hh"
 #include "base/error.hh"
 #include "base/provenance.hh"
 #include "files/run_file.hh"
@@ -38,7 +39,8 @@ using Clock = std::chrono::steady_clock;
 volatile std::sig_atomic_t caught_signal = 0;
 void on_signal(int s) { caught_signal = s; }
 
-/// Catches SIGINT and SIGTERM while it lives.
+/// Catches SIGINT, SIGTERM and SIGHUP (the terminal is gone) while it lives; the last not where nohup has it ignored. A
+/// closed pipe behind the log ends no run.
 class SignalGuard {
  public:
   SignalGuard() {
@@ -47,15 +49,21 @@ class SignalGuard {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, &old_int_);
     sigaction(SIGTERM, &action, &old_term_);
+    sigaction(SIGHUP, &action, &old_hangup_);
+    if (old_hangup_.sa_handler == SIG_IGN) sigaction(SIGHUP, &old_hangup_, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, &old_pipe_);
   }
   ~SignalGuard() {
     sigaction(SIGINT, &old_int_, nullptr);
     sigaction(SIGTERM, &old_term_, nullptr);
+    sigaction(SIGHUP, &old_hangup_, nullptr);
+    sigaction(SIGPIPE, &old_pipe_, nullptr);
   }
 
  private:
   struct sigaction old_int_ {
-  }, old_term_{};
+  }, old_term_{}, old_hangup_{}, old_pipe_{};
 };
 
 const char* limit_name(int limit) { return limit == 0 ? "acoustic" : (limit == 1 ? "force" : "viscous"); }
@@ -119,6 +127,9 @@ class Runner {
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
     last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
     place_pressure_gauges();
+    LGIW_VALIDATE(!h5::is_being_written(partial_path(options.output)), options.output + " is being written",
+                  "another lgiw-run has " + partial_path(options.output) + " open",
+                  "wait for it or stop it, or choose another name");
     identity_ = identity(data);
     if (options.resume)
       resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
@@ -217,7 +228,15 @@ class Runner {
     log(s.str());
   }
 
+  /// Of runs of this name that were killed while they wrote; beside the partial run and the checkpoints no use any
+  /// more.
+  void remove_leftovers() const {
+    remove_abandoned(checkpoint_path(options_.output));
+    remove_abandoned(partial_path(options_.output));
+  }
+
   void open() {
+    remove_leftovers();
     for (const std::string& path : checkpoints()) fs::remove(path);  // of an earlier run: no state of this one
     RunHeader h;
     h.particles = header_;
@@ -432,6 +451,7 @@ class Runner {
 
   void resume() {
     if (!resume_note_.empty()) log(resume_note_);
+    remove_leftovers();
     Checkpoint c = std::move(resumed_);
     simulation_->restore(c.arrays);
     outputs_ = c.outputs, earlier_ = c.wall_time;
@@ -526,6 +546,7 @@ class Runner {
     std::error_code ec(synced ? 0 : errno, std::generic_category());
     if (descriptor >= 0) close(descriptor);
     if (synced) fs::rename(partial, options_.output, ec);
+    if (!ec) sync_folder_of(options_.output);  // before the checkpoints go
     if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial);
     for (const std::string& path : checkpoints()) fs::remove(path, ec);
     return j.dump(1);
