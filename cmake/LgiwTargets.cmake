@@ -3,7 +3,7 @@
 add_library(lgiw_options INTERFACE)
 target_include_directories(lgiw_options INTERFACE ${PROJECT_SOURCE_DIR}/lib)
 target_compile_options(lgiw_options INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas -Wno-restrict>  # GCC 12 warns of its own std::string (bug 105651)
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>  # GCC 12 warns of its own std::string (bug 105651)
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${LGIW_WERROR}>>:-Werror>)
 if(LGIW_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)

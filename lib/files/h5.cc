@@ -1,5 +1,6 @@
 #include "files/h5.hh"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <new>
 #include <numeric>
 
 #include "base/error.hh"
@@ -19,9 +21,22 @@ constexpr hsize_t chunk_bytes = hsize_t(1) << 20;
 // zlib cannot pack better than 1032:1.
 constexpr hsize_t deflate_limit = 1100;
 
+/// HDF5 1.10 crashes where its own small allocations fail: they must not.
+void require_memory() {
+  constexpr std::size_t enough = std::size_t(8) << 20;
+  void* const place = mmap(nullptr, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place == MAP_FAILED) throw std::bad_alloc();
+  munmap(place, enough);
+}
+
+void rethrow_lack_of_memory(const std::string& why) {
+  if (why.find("memory allocation failed") != std::string::npos) throw std::bad_alloc();
+}
+
 /// Silences HDF5's own printing. Its clean-up at exit is left out too: after a failed write (disk full) it tries the
 /// same write again and complains on stderr, and all our files are closed by then.
 void set_up_library() {
+  require_memory();
   static const bool once = [] {
     H5dont_atexit();
     // A file must neither make HDF5 load code nor read other files.
@@ -54,11 +69,13 @@ std::string reason() {
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 [[noreturn]] void read_failed(const std::string& path, const std::string& object, const std::string& why) {
+  rethrow_lack_of_memory(why);
   throw InputError("cannot read " + quoted(object) + " of " + quoted(path), why,
                    "the file is damaged or of another kind, make it again");
 }
 
 [[noreturn]] void write_failed(const std::string& path, const std::string& object, const std::string& why) {
+  rethrow_lack_of_memory(why);
   throw WorkError("cannot write " + (object.empty() ? "" : quoted(object) + " of ") + quoted(path), why,
                   "see that the disk has room and that the folder can be written");
 }
@@ -315,6 +332,7 @@ std::vector<std::string> File::children(const std::string& group) const {
 template <class T>
 void File::create_dataset(const std::string& name, const Shape& shape, bool extendible, bool deflate,
                           const Shape& chunk) {
+  require_memory();
   make_group(parent(name));
   const Handle creation = creation_properties(H5P_DATASET_CREATE);
   Shape largest = shape;
@@ -339,6 +357,7 @@ void File::create_dataset(const std::string& name, const Shape& shape, bool exte
 template <class T>
 void File::write_slab(const std::string& name, const T* data, const Shape& start, const Shape& count) {
   if (element_count(count) == 0) return;
+  require_memory();
   const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
@@ -353,6 +372,7 @@ void File::write(const std::string& name, const T* data, const Shape& shape, boo
 template <class T>
 void File::append(const std::string& name, const T* data, const Shape& count) {
   if (element_count(count) == 0) return;
+  require_memory();
   const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   Shape start(count.size(), 0), size = extents(dataset.id());
@@ -366,9 +386,11 @@ void File::append(const std::string& name, const T* data, const Shape& count) {
 
 template <class T>
 std::vector<T> File::read(const std::string& name, Shape* shape) const {
+  require_memory();
   const Handle dataset = open_for_reading(handle_.id(), path_, name);
   const Shape size = backed_shape(handle_.id(), path_, name, dataset.id());
   std::vector<T> data(element_count(size));
+  require_memory();
   if (!data.empty() && H5Dread(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
     read_failed(path_, name, reason());
   if (shape) *shape = size;
@@ -378,6 +400,7 @@ std::vector<T> File::read(const std::string& name, Shape* shape) const {
 template <class T>
 void File::read_slab(const std::string& name, T* data, const Shape& start, const Shape& count) const {
   if (element_count(count) == 0) return;
+  require_memory();
   const Handle dataset = open_for_reading(handle_.id(), path_, name);
   const Shape size = backed_shape(handle_.id(), path_, name, dataset.id());
   const Handle file_space = slab_of(dataset.id(), start, count);
@@ -427,6 +450,7 @@ namespace {
 
 void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name,
                      const Handle& type, const Handle& space, const void* data) {
+  require_memory();
   const std::string full = object + "@" + name;
   const Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT));
   if (!owner) write_failed(path, object, reason());
@@ -539,6 +563,7 @@ double File::number_attribute(const std::string& object, const std::string& name
 }
 
 void File::flush() {
+  require_memory();
   arm();
   if (H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL) < 0) write_failed(path_, "", reason());
 }

@@ -160,6 +160,7 @@ class Runner {
       record();
     }
     while (outputs_ <= last_output_) {
+      checkpoint_if_due();
       advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time);
       record();
     }
@@ -233,6 +234,7 @@ class Runner {
   void remove_leftovers() const {
     remove_abandoned(checkpoint_path(options_.output));
     remove_abandoned(partial_path(options_.output));
+    remove_abandoned(options_.output);
   }
 
   void open() {
@@ -288,15 +290,21 @@ class Runner {
         batch_ = std::min<int64_t>(2 * batch_, 1000);
       else if (seconds > 0.4)
         batch_ = std::max<int64_t>(batch_ / 2, 1);
-      if (caught_signal) {
-        checkpoint();
-        throw Interrupted{caught_signal};
-      }
       progress(st);
-      if (elapsed() > checkpoint_at_) {
-        checkpoint();
-        checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
-      }
+      if (st.time < target) checkpoint_if_due();
+    }
+  }
+
+  /// By the clock, and on a signal. Not between the last step to an output time and record(), which looks at what that step
+  /// left in arrays that no checkpoint holds.
+  void checkpoint_if_due() {
+    if (caught_signal) {
+      checkpoint();
+      throw Interrupted{caught_signal};
+    }
+    if (elapsed() > checkpoint_at_) {
+      checkpoint();
+      checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
     }
   }
 

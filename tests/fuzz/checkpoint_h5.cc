@@ -1,5 +1,5 @@
-// A checkpoint with the changes that the input orders; with its digest right, so that it is read at all, unless the first
-// byte says otherwise.
+// A checkpoint with the changes that the input orders; with its digest right, so that it is read at all, unless the
+// first byte says otherwise.
 #include "solver/checkpoint.hh"
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// What the fuzz targets share. A target is a function LLVMFuzzerTestOneInput; libFuzzer calls it (LGIW_FUZZ=ON, clang), or
-// replay.cc with the inputs that are kept in corpus/ (every build, ctest).
+// What the fuzz targets share. A target is a function LLVMFuzzerTestOneInput; libFuzzer calls it (LGIW_FUZZ=ON, clang),
+// or replay.cc with the inputs that are kept in corpus/ (every build, ctest).
 //
 // A reader may refuse its input with InputError or WorkError, or read it. Whatever else it throws, ends the program.
 #pragma once

@@ -145,7 +145,8 @@ inline void replace_dataset(hid_t file, const H5Object& object, Script& script) 
   const hid_t space = shape.empty() ? H5Screate(how % 8 == 0 ? H5S_NULL : H5S_SCALAR)
                                     : H5Screate_simple(int(shape.size()), shape.data(), nullptr);
   H5Ldelete(file, object.path.c_str(), H5P_DEFAULT);
-  const hid_t dataset = space < 0 ? -1 : H5Dcreate2(file, object.path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  const hid_t dataset =
+      space < 0 ? -1 : H5Dcreate2(file, object.path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
   if (dataset >= 0) {
     if (count <= 4096 && !H5Tis_variable_str(type) && H5Tget_class(type) != H5T_VLEN) {
       const std::vector<char> bytes = chosen_bytes(script, (count + 1) * H5Tget_size(type));

@@ -56,6 +56,14 @@ run() {
   lgiw-run slide.h5 -o "$output" --backend cpu --no-provenance -q --set output.checkpoint_interval=$checkpoints "$@"
 }
 
+# start OUTPUT OPTIONS...: the same beside the script; its number is in `process`, its errors in run.err.
+start() {
+  local output=$1
+  shift
+  lgiw-run slide.h5 -o "$output" --backend cpu --no-provenance -q --set output.checkpoint_interval=$checkpoints "$@" 2> run.err &
+  process=$!
+}
+
 # finish_and_compare OUTPUT REFERENCE WHAT: takes up the run or, where it had come to no checkpoint, starts it anew, and
 # expects the bytes of REFERENCE and nothing left over. Sets `outcome` to resumed or anew.
 finish_and_compare() {
