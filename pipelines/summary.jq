@@ -26,8 +26,8 @@ def empirical:
   "wall \(.particles.wall | thousands); wall particles left out \(.particles.left_out | thousands)",
 "  run              \(.steps | thousands) steps in \(.wall_time_s | fixed(0)) s, " +
   "\(.particle_steps_per_s / 1e6 | fixed(2)) million particle-steps/s",
-"  slide            \(.slide_volume_m3 | volume), of which \(.immersed_volume_m3 | volume) entered the water; " +
-  "fastest \(.max_slide_speed_m_s | short) m/s",
+(if .slide_volume_m3 then "  slide            \(.slide_volume_m3 | volume), of which \(.immersed_volume_m3 | volume) entered the water; " +
+  "fastest \(.max_slide_speed_m_s | short) m/s" else empty end),
 "  run-up           \(.runup_m | short) m above still level on the opposite bank",
 (if .impulse_wave then "  empirical        \(.impulse_wave | empirical)" else empty end),
 "  conservation     mass error \(.mass_error | scientific), density error \(.density_error | scientific)",

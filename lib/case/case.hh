@@ -68,7 +68,7 @@ struct Water {
   double density = 1000;
   double sound_speed = 0;  // m/s; 0: automatic
   double viscosity_alpha = 0.05;
-  bool no_slip = false;  // artificial viscosity along walls, too, and not against them only
+  bool no_slip = false;            // artificial viscosity along walls, too, and not against them only
   double density_diffusion = 0.1;  // delta; 0 leaves it out
   std::vector<std::vector<Point2>>
       bodies;                // 2-D/analytic: (x, z) polygons of water instead of "everything below level"
@@ -160,8 +160,9 @@ struct Numerics {
   double h_over_dp = 1.5;
   Integrator integrator = Integrator::leapfrog;
   double cfl = 0.4;
-  bool return_mapping = true;          // false: rate form, Eqs. (8)-(9)
-  bool wall_viscosity = true;          // Pi_ib of physics.md section 8
+  int retakes = 3;             // of a stretch whose last step failed, each with half the time step of the one before
+  bool return_mapping = true;  // false: rate form, Eqs. (8)-(9)
+  bool wall_viscosity = true;  // Pi_ib of physics.md section 8
   bool corrected_strain_rate = false;  // first-order velocity gradient of the soil
   double shifting = 0;                 // of water, A of Skillen et al. 2013; 0 leaves it out
   Precision precision = Precision::mixed;

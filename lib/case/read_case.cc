@@ -259,6 +259,7 @@ void read_numerics(const YamlSection& s, Numerics& n) {
                        {{"leapfrog", Integrator::leapfrog}, {"verlet", Integrator::verlet}});
   if (n.integrator == Integrator::verlet) n.cfl = 0.2;  // physics: at 0.4 it diverges
   s.number("cfl", n.cfl, {.low = 0, .high = 1, .above_low = true});
+  s.integer("retakes", n.retakes, {.low = 0, .high = 6});
   s.choice<bool>("constitutive", n.return_mapping, {{"return_mapping", true}, {"rate_form", false}});
   s.flag("wall_viscosity", n.wall_viscosity);
   s.choice<bool>("strain_rate", n.corrected_strain_rate, {{"plain", false}, {"corrected", true}});

@@ -20,7 +20,7 @@ std::vector<SliceParticle> section_slice(const RunHeader& header, const Frame& f
       const double dy = flat ? 0 : section.points[s][1] - p.origin[1] - y0, length = std::hypot(dx, dy);
       const double along = ((r[0] - x0) * dx + (r[1] - y0) * dy) / length;
       const double beside = ((r[1] - y0) * dx - (r[0] - x0) * dy) / length;
-      if (along >= 0 && along < length && (flat || std::abs(beside) <= p.dp / 2)) {
+      if (along >= 0 && along < length && (flat || std::abs(beside) <= p.dp)) {
         const bool soil = k >= n_water;
         slice.push_back({before + along, r[2] + p.origin[2], soil, std::hypot(v[0], v[1], v[2]),
                          soil ? double(frame.adps[k]) : std::numeric_limits<double>::quiet_NaN()});

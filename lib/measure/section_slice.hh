@@ -15,7 +15,7 @@ struct SliceParticle {
   double speed, adps;  // m/s; accumulated plastic strain, NaN of water
 };
 
-/// Particles at most half a particle spacing beside the line (in 2-D all), water first; those that are lost are left
+/// Particles at most a particle spacing beside the line (in 2-D all), water first; those that are lost are left
 /// out. Beside a corner of the line a particle may come twice or not at all.
 std::vector<SliceParticle> section_slice(const RunHeader& header, const Frame& frame, const Section& section);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "physics/time_step.hh"
+
 namespace lgiw {
 
 namespace {
@@ -83,6 +85,11 @@ RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sou
   const double speed = 0.1 * (sound_speed > 0 ? sound_speed : fastest);
   estimate.time_step =
       c.numerics.cfl * std::min(std::sqrt(h / std::abs(c.gravity[2])), h / std::max(fastest + speed, 1e-9));
+  const double diffusion = std::max(c.water.density_diffusion * sound_speed,
+                                    c.has_soil() ? c.soil.stress_diffusion * soil_sound_speed(c) : 0.0);
+  if (diffusion > 0)
+    estimate.time_step =
+        std::min(estimate.time_step, diffusive_limit(c.numerics.integrator == Integrator::verlet) * h / diffusion);
   estimate.steps = std::ceil((c.output.end_time + c.numerics.settle_time) / estimate.time_step);
   estimate.run_time = estimate.steps * double(counts.total()) / rate;
 

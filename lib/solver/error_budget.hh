@@ -24,6 +24,11 @@ constexpr double energy_created = 0.01;    // of the energy released
 constexpr double interpenetrating = 0.05;  // of the particles of the smaller phase; a front tears off some grains
 }  // namespace warn_at
 
+/// Limits above which a run stops.
+namespace stop_at {
+constexpr double density_error = 0.2;  // of the 99.9th percentile
+}
+
 /// How many particles lie across what matters, at the start: counted in columns of particles one dp wide.
 struct Resolution {
   struct GaugeDepth {

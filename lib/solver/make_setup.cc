@@ -129,6 +129,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.water_alpha = c.water.viscosity_alpha, p.water_slips = !c.water.no_slip;
     p.density_diffusion = c.water.density_diffusion;
     p.shifting = c.numerics.shifting;
+    p.water_depth = greatest_water_depth(data);
     p.still_water_level = header.still_water_level;
   }
   if (soil) {
@@ -151,12 +152,12 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.coulomb_sides = s.sides == WallFriction::coulomb, p.free_slip_sides = s.sides == WallFriction::free_slip;
     p.bed_friction = std::tan(s.bed_friction_angle * degree);
     const double wave = SoilMaterial<double>::wave_speed(s.young_modulus, s.poisson_ratio, s.density);
-    const double height = greatest_soil_height(data.soil, header.dp);
+    p.soil_height = greatest_soil_height(data.soil, header.dp);
     p.settle_soil = s.initial_stress == InitialStress::settled;
     const double extent = std::max(greatest_extent(data.soil), header.dp);
     p.soil_settle_rate = pi * wave / extent;
     if (p.settle_soil) p.settle_time = 5 * extent / wave;
-    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : 3 * std::sqrt(g * height) / wave;
+    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : 3 * std::sqrt(g * p.soil_height) / wave;
   }
   p.velocity_factor = c.interface.velocity_factor;
   p.repulsion = c.interface.repulsion;
@@ -170,7 +171,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     p.absorbing[side] = header.sides[side] == Side::absorbing && (header.dimension == 3 || side < 2);
     any_absorbing = any_absorbing || p.absorbing[side];
   }
-  if (any_absorbing && water) p.absorbing_rate = 9 * std::sqrt(g * greatest_water_depth(data)) / p.absorbing_width;
+  if (any_absorbing && water) p.absorbing_rate = 9 * std::sqrt(g * p.water_depth) / p.absorbing_width;
   p.settle_rate = std::sqrt(g / p.dp);
   if (c.numerics.settle_time > 0) p.settle_time = c.numerics.settle_time;
   for (const BodyMotion& motion : header.bodies) p.bodies.push_back(prescribed_motion(motion));

@@ -7,6 +7,7 @@
 #include "physics/interface.hh"
 #include "physics/kernel.hh"
 #include "physics/soil.hh"
+#include "physics/time_step.hh"
 #include "physics/water.hh"
 #include "solver/grid.hh"
 #include "solver/machine.hh"
@@ -67,6 +68,7 @@ struct Parameters {
   T speed_limit;  // faster than this is a failed state
   // Time step.
   double cfl, fastest_wave, slowest_viscous;  // c, h / (alpha c) limit
+  double diffusive_step;                      // s: limit of the density and the stress diffusion
   bool verlet;
 
   Parameters() = default;
@@ -131,6 +133,8 @@ struct Parameters {
     const double alpha_c = std::max(water ? p.water_alpha * c : 0.0, p.soil_alpha * cs);
     slowest_viscous = alpha_c > 0 ? p.h / alpha_c : 1e30;
     cfl = p.cfl, verlet = p.verlet;
+    const double delta_c = std::max(water ? p.density_diffusion * c : 0.0, p.stress_diffusion * cs);
+    diffusive_step = delta_c > 0 ? diffusive_limit(verlet) * p.h / delta_c : 1e30;
   }
 
  private:

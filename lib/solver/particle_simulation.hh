@@ -244,10 +244,16 @@ class ParticleSimulation final : public Simulation {
     return st;
   }
 
+  void limit_time_step(double share) override {
+    StepState st = state();
+    st.dt *= share / st.share, st.share = share;
+    backend_.upload(state_, &st);
+  }
+
   void settle(Settling mode) override {
     StepState st = state();
     StepState fresh;
-    fresh.settling = int32_t(mode);
+    fresh.settling = int32_t(mode), fresh.share = st.share;
     fresh.lost_water = st.lost_water, fresh.lost_soil = st.lost_soil;
     backend_.upload(state_, &fresh);
     for (auto& q : water_.v) backend_.zero(q);

@@ -1109,7 +1109,9 @@ LGIW_FN void finish_step(const Parameters<Tr>& p, const Limits<typename Tr::T>& 
     st.dt_previous = st.dt;
     st.euler_countdown = st.euler_countdown == 0 ? 40 : st.euler_countdown - 1;
   }
-  st.dt = p.cfl * dt;
+  st.dt = p.cfl * st.share * dt;
+  // A limit of stability itself, whatever the CFL number.
+  if (st.share * p.diffusive_step < st.dt) st.dt = st.share * p.diffusive_step, limit = 3;
   st.limit = limit;
 }
 

@@ -25,6 +25,7 @@
 #include "seeding/run_estimate.hh"
 #include "solver/checkpoint.hh"
 #include "solver/diagnostics.hh"
+#include "solver/envelope.hh"
 #include "solver/error_budget.hh"
 #include "solver/make_setup.hh"
 #include "solver/neighbour_count.hh"
@@ -66,7 +67,8 @@ class SignalGuard {
   }, old_term_{}, old_hangup_{}, old_pipe_{};
 };
 
-const char* limit_name(int limit) { return limit == 0 ? "acoustic" : (limit == 1 ? "force" : "viscous"); }
+constexpr const char* limit_names[] = {"acoustic", "force", "viscous", "diffusive"};
+const char* limit_name(int limit) { return limit_names[limit]; }
 
 const char* precision_name(Precision p) {
   return p == Precision::single_ ? "single" : (p == Precision::double_ ? "double" : "mixed");
@@ -143,6 +145,8 @@ class Runner {
     resolution_ = resolution_of(c, data);
     log(text_of(resolution_));
     warnings_ = warnings_of(resolution_);
+    outside_ = warnings_of(envelope_of(c, model_));
+    warnings_.insert(warnings_.end(), outside_.begin(), outside_.end());
     for (const std::string& warning : warnings_) log("warning: " + warning);
   }
 
@@ -155,14 +159,18 @@ class Runner {
     else
       open();
     checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
+    keep();
     if (outputs_ == 0) {
       settle();
+      kept_.clear();  // of settling
       record();
+      keep();
     }
     while (outputs_ <= last_output_) {
       checkpoint_if_due();
-      advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time);
+      if (!advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time)) continue;
       record();
+      keep();
     }
     return finish();
   }
@@ -259,7 +267,7 @@ class Runner {
     if (!(duration > 0) || !(header_.counts.water || model_.settle_soil)) return;
     if (!simulation_->state().settling)  // set in a resumed run
       simulation_->settle(model_.settle_soil ? Settling::all : Settling::water);
-    advance_to(duration);
+    while (!advance_to(duration)) continue;
     const StepState st = simulation_->state();
     extremes_["settle_steps"] = double(st.step);
     ParticleState s;
@@ -275,16 +283,24 @@ class Runner {
     simulation_->settle(Settling::off);
   }
 
-  /// Steps until the time is `target`, with checkpoints by the clock and on a signal.
-  void advance_to(double target) {
+  /// Steps until the time is `target`, with checkpoints by the clock and on a signal. False where a step failed and the
+  /// run has gone back to an earlier state, to be taken again.
+  bool advance_to(double target) {
     StepState st = simulation_->state();
     while (st.time < target) {
       const int64_t before = st.step;
       const double since = elapsed();
       st = simulation_->advance(target, batch_);
       const double seconds = elapsed() - since;
-      check(st);
       steps_taken_ += st.step - before, seconds_taken_ += seconds;
+      if (failed(st)) {
+        go_back(st);
+        return false;
+      }
+      if (st.share < 1 && st.time > retaken_.until) {
+        simulation_->limit_time_step(1);
+        retaken_.tries = 0;
+      }
       // As many steps at a stroke as keep signals and progress prompt.
       if (seconds < 0.1)
         batch_ = std::min<int64_t>(2 * batch_, 1000);
@@ -293,6 +309,7 @@ class Runner {
       progress(st);
       if (st.time < target) checkpoint_if_due();
     }
+    return true;
   }
 
   /// By the clock, and on a signal. Not between the last step to an output time and record(), which looks at what that step
@@ -308,9 +325,43 @@ class Runner {
     }
   }
 
-  void check(const StepState& st) {
+  static bool failed(const StepState& st) { return st.failed_water != UINT32_MAX || st.failed_soil != UINT32_MAX; }
+
+  /// Keeps the present state in memory every so often, and one before it: what led to a failure may have begun before
+  /// the last.
+  void keep() {
+    if (case_.numerics.retakes == 0) return;
+    const int64_t step = simulation_->state().step;
+    if (!kept_.empty() && step < kept_.back().step + steps_between_kept) return;
+    if (kept_.size() == 2) kept_.erase(kept_.begin());
+    kept_.push_back({step, present()});
+  }
+
+  /// Takes the stretch before a failed step again with half the time step, then from further back with a quarter, and
+  /// so on; throws when that was in vain. The smaller step lasts until as much time has passed beyond the failure as
+  /// lay before it.
+  void go_back(const StepState& at) {
+    const bool again = retaken_.tries > 0;
+    if (again ? retaken_.tries == case_.numerics.retakes : kept_.empty() || retaken_.failures == most_failures)
+      give_up(at);
+    if (!again) ++retaken_.failures;
+    ++retaken_.tries;
+    if (retaken_.tries > 1) kept_.resize(1);
+    restore(kept_.back().state);
+    const StepState st = simulation_->state();
+    const double share = std::pow(0.5, retaken_.tries);
+    simulation_->limit_time_step(share);
+    retaken_.until = std::max(retaken_.until, at.time + (at.time - st.time));
+    char line[200];
+    std::snprintf(line, sizeof line,
+                  "a step failed at t = %.4g s (step %lld): taken again from t = %.4g s with 1/%d of the time step",
+                  at.time, static_cast<long long>(at.step), st.time, 1 << retaken_.tries);
+    log(line);
+    warnings_.push_back(line);
+  }
+
+  void give_up(const StepState& st) {
     const bool water = st.failed_water != UINT32_MAX;
-    if (!water && st.failed_soil == UINT32_MAX) return;
     writer_->write_maxima(maxima_);
     writer_->flush();
     ParticleState s;
@@ -325,10 +376,11 @@ class Runner {
         << v[3 * id] << ", " << v[3 * id + 1] << ", " << v[3 * id + 2] << ") m/s";
     if (water) why << " and density " << model_.water_density + s.water_excess[id] << " kg/m3";
     why << ": not finite or out of range";
+    if (retaken_.tries > 0) why << ", also with 1/" << (1 << retaken_.tries) << " of the time step";
     if (fs::exists(checkpoint_path(options_.output)))
       then << "the last good state is " << checkpoint_path(options_.output) << "; ";
-    then << "frames up to the failure are in " << partial_path(options_.output)
-         << "; try a smaller numerics.cfl or a larger water.sound_speed";
+    then << "frames up to the failure are in " << partial_path(options_.output) << "; "
+         << (outside_.empty() ? "try a smaller numerics.cfl or a larger water.sound_speed" : outside_.front());
     throw WorkError(what.str(), why.str(), then.str());
   }
 
@@ -377,6 +429,7 @@ class Runner {
     row.emplace_back("momentum_residual", with_frame ? momentum_residual() : extremes_["last_momentum_residual"]);
     writer_->add_diagnostics(st.time, row);
     lgiw::accumulate(row, extremes_);
+    refuse_compressed(row, st.time);
     diagnostics_seconds_ += elapsed() - since;
 
     if (with_frame) {
@@ -391,6 +444,27 @@ class Runner {
       writer_->add_frame(frame);
     }
     ++outputs_;
+  }
+
+  /// Water that is no longer nearly incompressible gives smooth, wrong waves.
+  void refuse_compressed(const DiagnosticsRow& row, double time) {
+    const auto value = [&](const char* name) {
+      for (const auto& [key, v] : row)
+        if (key == name) return v;
+      return 0.0;
+    };
+    const double error = value("density_error_p999");
+    if (!(error > stop_at::density_error)) return;
+    writer_->write_maxima(maxima_);
+    writer_->flush();
+    std::ostringstream what, why, then;
+    what.precision(3), why.precision(3), then.precision(3);
+    what << "the water is compressed by " << 100 * error << " % at t = " << time << " s";
+    why << "its fastest particles move at " << value("max_water_speed") << " m/s and its sound at "
+        << model_.sound_speed << " m/s; waves would come out wrong";
+    then << "frames up to there are in " << partial_path(options_.output)
+         << "; set water.sound_speed to ten times the fastest flow that is real";
+    throw WorkError(what.str(), why.str(), then.str());
   }
 
   double momentum_residual() {
@@ -445,6 +519,10 @@ class Runner {
   void checkpoint() {
     writer_->write_maxima(maxima_);
     writer_->flush();
+    write_checkpoint(checkpoint_path(options_.output), present());
+  }
+
+  Checkpoint present() {
     Checkpoint c;
     c.identity = identity_;
     c.outputs = outputs_, c.frames = writer_->frames(), c.surfaces = writer_->surfaces(),
@@ -452,22 +530,32 @@ class Runner {
     c.wall_time = elapsed();
     c.extremes = extremes_;
     c.extremes["stepping_time"] = stepping_earlier_ + seconds_taken_;
+    c.extremes["retake_failures"] = retaken_.failures, c.extremes["retake_tries"] = retaken_.tries;
+    c.extremes["retake_until"] = retaken_.until;
     c.maxima = maxima_, c.initial_elevation = initial_elevation_;
     c.arrays = simulation_->save();
-    write_checkpoint(checkpoint_path(options_.output), c);
+    return c;
+  }
+
+  /// Back to `c`, the run file too.
+  void restore(const Checkpoint& c) {
+    simulation_->restore(c.arrays);
+    outputs_ = c.outputs, extremes_ = c.extremes, maxima_ = c.maxima, initial_elevation_ = c.initial_elevation;
+    if (writer_ && writer_->surfaces() == c.surfaces) return;  // nothing was written since
+    if (writer_) writer_->flush();                             // which tells how much is in the file
+    writer_.reset();
+    writer_ = std::make_unique<RunWriter>(
+        RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
   }
 
   void resume() {
     if (!resume_note_.empty()) log(resume_note_);
     remove_leftovers();
-    Checkpoint c = std::move(resumed_);
-    simulation_->restore(c.arrays);
-    outputs_ = c.outputs, earlier_ = c.wall_time;
-    extremes_ = std::move(c.extremes);
+    const Checkpoint c = std::move(resumed_);
+    restore(c);
+    earlier_ = c.wall_time;
     stepping_earlier_ = extremes_["stepping_time"];
-    maxima_ = std::move(c.maxima), initial_elevation_ = std::move(c.initial_elevation);
-    writer_ = std::make_unique<RunWriter>(
-        RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
+    retaken_ = {int(extremes_["retake_failures"]), int(extremes_["retake_tries"]), extremes_["retake_until"]};
     char line[120];
     const StepState st = simulation_->state();
     std::snprintf(line, sizeof line, "resumed at %s %.4f s, step %lld", st.settling ? "settling time" : "t =", st.time,
@@ -520,11 +608,12 @@ class Runner {
     j["precision"] = precision_name(case_.numerics.precision);
     j["integrator"] = model_.verlet ? "verlet" : "leapfrog";
     j["cfl"] = model_.cfl;
+    j["failed_steps_retaken"] = retaken_.failures;
     if (header_.counts.water) j["sound_speed_m_s"] = model_.sound_speed;
     j["time_step_s"] = {{"smallest", st.step ? st.smallest_dt : 0.0},
                         {"mean", st.step ? st.time / double(st.step) : 0.0}};
     // The share of the steps that each condition limited.
-    for (int limit = 0; limit < 3; ++limit)
+    for (int limit = 0; limit < 4; ++limit)
       j["time_step_limited_by"][limit_name(limit)] = double(st.limited[limit]) / std::max(1.0, double(st.step));
     j["resolution"] = json_of(resolution_);
     j["error_budget"] = json_of(budget);
@@ -582,9 +671,20 @@ class Runner {
   std::string identity_, resume_note_;
   Checkpoint resumed_;
   Resolution resolution_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, outside_;  // outside_: of the envelope
   double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
          stepping_earlier_ = 0, diagnostics_seconds_ = 0, set_up_seconds_ = 0;
+  struct Kept {
+    int64_t step;
+    Checkpoint state;
+  };
+  std::vector<Kept> kept_;  // at most two, the newest last
+  struct {
+    int failures = 0, tries = 0;  // in the whole run; of the failure at hand
+    double until = 0;             // s: end of the smaller time step
+  } retaken_;
+  static constexpr int64_t steps_between_kept = 500;  // a copy costs the time of a few steps on a device
+  static constexpr int most_failures = 10;
   int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };
@@ -608,7 +708,8 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
     wave = std::max(wave, soil), alpha_c = std::max(alpha_c, p.soil_alpha * soil);
   }
   // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
-  const double dt = p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30));
+  const double dt =
+      std::min(simulation->state().dt, p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30)));
   const double steps = (c.output.end_time + p.settle_time) / dt;
   if (!(particle_steps_per_s > 0))
     particle_steps_per_s = particle_rate(c.dimension, data.soil.size() > 0, omp_get_max_threads());
@@ -626,7 +727,11 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;
   j["particle_steps_per_s_assumed"] = particle_steps_per_s;
   j["resolution"] = json_of(resolution);
-  j["warnings"] = warnings_of(resolution);
+  const std::vector<EnvelopeAxis> envelope = envelope_of(c, p);
+  std::vector<std::string> warnings = warnings_of(resolution);
+  for (const std::string& warning : warnings_of(envelope)) warnings.push_back(warning);
+  j["warnings"] = warnings;
+  j["envelope"] = json_of(envelope);
   j["expected_error"] = expected_error(resolution.slide_median, resolution.deepest_water).text;
   return j.dump(1);
 }

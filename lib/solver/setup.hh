@@ -22,6 +22,7 @@ struct ModelParameters {
   int dimension = 3;
   double dp = 0, h = 0;
   std::array<double, 3> gravity{0, 0, -9.81};  // 2-D: x and z are used
+  double water_depth = 0, soil_height = 0;     // m: the deepest water and the highest column of soil at the start
   bool cubic_kernel = false;
   bool verlet = false;
   double cfl = 0.4;

@@ -22,12 +22,13 @@ enum class Settling { off, water, all };
 struct StepState {
   double time = 0, target = 0;     // s; steps are taken while time < target
   double dt = 0, dt_previous = 0;  // s
+  double share = 1;                // of the CFL number that steps take; less while a failed stretch is retaken
   int64_t step = 0;
   int32_t euler_countdown = 0;  // Verlet: steps left until the next Euler step
   int32_t settling = 0;         // Settling
-  int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous
+  int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous, 3 diffusive
   double smallest_dt = 1e300;   // s, of the steps taken
-  int64_t limited[3] = {};      // steps taken, by what limited them
+  int64_t limited[4] = {};      // steps taken, by what limited them
   int32_t lost_water = 0, lost_soil = 0;
   uint32_t failed_water = UINT32_MAX,
            failed_soil = UINT32_MAX;  // smallest id in a state that is not finite or out of range
@@ -71,6 +72,8 @@ class Simulation {
   /// Steps until time >= target or `max_steps` are done; returns the state then. Stops early on a failed particle.
   virtual StepState advance(double target, int64_t max_steps) = 0;
   virtual StepState state() const = 0;
+  /// From the coming step on, steps take this share of the CFL number; in (0, 1].
+  virtual void limit_time_step(double share) = 0;
   /// Begins or ends settling: velocities and time are reset to zero.
   virtual void settle(Settling mode) = 0;
   virtual void download(ParticleState& out) const = 0;

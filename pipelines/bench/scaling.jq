@@ -1,6 +1,16 @@
 # Summaries of lgiw-run, named scene.sizes.N.json and scene.threads.N.json -> cost per particle-step against size, efficiency
 # against threads.
 include "run-record";
+# Walls cost less than what moves, and their share falls as a scene is refined: the time of a step as a sum over both, fitted so
+# that the squares of the relative differences are least, and what differs beyond that.
+def by_kind:
+  map((.stepping_time_s / .steps * 1e9) as $t | {m: ((.total - .particles.wall) / $t), w: (.particles.wall / $t)})
+  | (map(.m * .m) | add) as $mm | (map(.m * .w) | add) as $mw | (map(.w * .w) | add) as $ww
+  | (map(.m) | add) as $m | (map(.w) | add) as $w | ($mm * $ww - $mw * $mw) as $det
+  | if $det <= 1e-9 * $mm * $ww then null else
+      (($m * $ww - $w * $mw) / $det) as $moving | (($w * $mm - $m * $mw) / $det) as $wall
+      | map($moving * .m + $wall * .w) | {ns_per_moving: $moving, ns_per_wall: $wall, spread: (max / min - 1)}
+    end;
 def path_parts: input_filename | split("/") | last | split(".");
 [inputs | . + {scene: path_parts[0], what: path_parts[1]}]
 | {
@@ -9,6 +19,7 @@ def path_parts: input_filename | split("/") | last | split(".");
           runs: map({particles, steps, total: total_particles, neighbours_per_particle, peak_memory_bytes,
                      stepping_time_s, ns_per_particle_step: (1e9 / .stepping_particle_steps_per_s)})
         }
+      | .by_kind = (.runs | by_kind)
       | .spread = ((.runs | map(.ns_per_particle_step) | max / min) - 1)
       | .within_bar = (.spread <= .bar))),
     threads: (map(select(.what == "threads")) | group_by(.scene) | map(sort_by(.threads) | .[0] as $first

@@ -203,7 +203,7 @@ TEST(TimeSteps, SmallestAndWhatLimitedThem) {
   Cloud scene = cloud({});
   const auto simulation = make_cpu_simulation(scene.p, scene.in, NumberType::double_);
   double smallest = 1e300, time = 0;
-  int64_t limited[3] = {};
+  int64_t limited[4] = {};
   for (int k = 0; k < 20; ++k) {
     const StepState before = simulation->state();
     smallest = std::min(smallest, before.dt), ++limited[before.limit], time += before.dt;
@@ -213,7 +213,25 @@ TEST(TimeSteps, SmallestAndWhatLimitedThem) {
   EXPECT_EQ(st.step, 20);
   EXPECT_EQ(st.smallest_dt, smallest);
   EXPECT_NEAR(st.time, time, 1e-15);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(st.limited[k], limited[k]);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(st.limited[k], limited[k]);
+}
+
+TEST(TimeSteps, DiffusionHasALimitOfItsOwn) {
+  // Far below the acoustic one: delta c dt / h is at most 0.3 (leapfrog) and 0.02 (Verlet), times the share asked for.
+  for (const bool verlet : {false, true}) {
+    Cloud scene = cloud({});
+    scene.p.verlet = verlet, scene.p.cfl = 1, scene.p.density_diffusion = 40, scene.p.stress_diffusion = 0;
+    const auto simulation = make_cpu_simulation(scene.p, scene.in, NumberType::double_);
+    const double limit = (verlet ? 0.02 : 0.3) * scene.p.h / (40 * scene.p.sound_speed);
+    EXPECT_NEAR(simulation->state().dt, limit, 1e-12 * limit);
+    EXPECT_EQ(simulation->state().limit, 3);
+    simulation->limit_time_step(0.25);
+    EXPECT_NEAR(simulation->state().dt, 0.25 * limit, 1e-12 * limit);
+    simulation->advance(1, 1);
+    EXPECT_NEAR(simulation->state().dt, 0.25 * limit, 1e-12 * limit);
+    simulation->limit_time_step(1);
+    EXPECT_NEAR(simulation->state().dt, limit, 1e-12 * limit);
+  }
 }
 
 /// Rows with total, kinetic and potential energy alone.

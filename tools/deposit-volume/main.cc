@@ -11,6 +11,7 @@
 #include "base/error.hh"
 #include "base/tool_main.hh"
 #include "case/dotted_key.hh"
+#include "measure/chosen_frames.hh"
 #include "measure/comparison.hh"
 #include "measure/csv_table.hh"
 #include "measure/section_profiles.hh"
@@ -30,33 +31,6 @@ struct Options : MeasuringOptions {
   std::vector<std::string> at{"first", "last"};
   double adps = 0;  // 0: the case's
 };
-
-/// Frames that --at asks for: `first`, `last` and times, which take the nearest frame. In order of time, each once.
-std::vector<std::size_t> chosen_frames(const std::vector<std::string>& at, const RunReader& run) {
-  std::vector<std::size_t> frames;
-  const std::size_t last = run.frame_count() - 1;
-  for (const std::string& word : at) {
-    if (word == "first" || word == "last") {
-      frames.push_back(word == "first" ? 0 : last);
-      continue;
-    }
-    char* end = nullptr;
-    const double time = std::strtod(word.c_str(), &end);
-    LGIW_VALIDATE(!word.empty() && *end == '\0' && std::isfinite(time), "--at has '" + word + "'",
-                  "it is neither first, last nor a time in s", "write for example --at first,20,last");
-    std::ostringstream range;
-    range << "the run's frames are from " << run.frame_time(0) << " s to " << run.frame_time(last) << " s";
-    LGIW_VALIDATE(time >= run.frame_time(0) && time <= run.frame_time(last), "there is no frame at " + word + " s",
-                  range.str(), "name a time between them");
-    std::size_t nearest = 0;
-    for (std::size_t k = 1; k <= last; ++k)
-      if (std::abs(run.frame_time(k) - time) < std::abs(run.frame_time(nearest) - time)) nearest = k;
-    frames.push_back(nearest);
-  }
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
-}
 
 /// The line along a 2-D run.
 Section whole_profile(const ParticleHeader& header) {
@@ -241,7 +215,7 @@ int run(const Options& options, const std::string& command) {
                 "profiles and slices lie along sections", "add sections to the case and pass it with --case");
   LGIW_VALIDATE(options.thickness.empty() || particles.dimension == 3, "--thickness is for 3-D runs",
                 options.run + " is 2-D", "leave it out; --profiles has the deposit");
-  const std::vector<std::size_t> profile_frames = chosen_frames(options.at, run);
+  const std::vector<std::size_t> profile_frames = chosen_frames("--at", options.at, run);
   const References references = chosen_references(options, sections, particles);
   const bool stdout_used = options.common.json || !options.compare.empty();
   const std::string output = !options.output.empty() ? options.output : stdout_used ? "" : "-";
@@ -318,7 +292,7 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--slices", options.slices,
-                 "Table of the particles within half a spacing of the sections: phase, speed, strain (CSV)")
+                 "Table of the particles within a spacing of the sections: phase, speed, strain (CSV)")
       ->type_name("FILE")
       ->group(outputs);
   app.add_option("--thickness", options.thickness, "Thickness of the slide at the end (GeoTIFF)")

@@ -14,12 +14,14 @@
 #include "base/error.hh"
 #include "base/tool_main.hh"
 #include "gauge_netcdf.hh"
+#include "measure/chosen_frames.hh"
 #include "measure/comparison.hh"
 #include "measure/csv_table.hh"
 #include "measure/gauge_series.hh"
 #include "measure/section_runup.hh"
 #include "measure/surface_sampling.hh"
 #include "measure/tool_outputs.hh"
+#include "snapshots.hh"
 #include "wave_maps.hh"
 
 namespace {
@@ -29,7 +31,7 @@ using nlohmann::ordered_json;
 
 struct Options : MeasuringOptions {
   std::string peaks, runup, netcdf, maps, pressure;
-  std::vector<std::string> gauges;
+  std::vector<std::string> gauges, snapshots;
   std::vector<double> thresholds;
   bool long_form = false, heights = false, compare_elevations = false;
 };
@@ -324,6 +326,9 @@ int run(const Options& options, const std::string& command) {
                 "add sections to the case and pass it with --case");
   LGIW_VALIDATE(options.pressure.empty() || !header.pressure_gauges.empty(), options.run + " has no pressure gauges",
                 "they are recorded while the case runs", "give gauges of the case quantity: pressure and run it again");
+  LGIW_VALIDATE(options.snapshots.empty() || run.frame_count() > 0, options.run + " holds no frames",
+                "the run has not got that far", "wait for lgiw-run to write some");
+  const std::vector<std::size_t> snapshots = chosen_frames("--snapshots", options.snapshots, run);
   for (double threshold : options.thresholds)
     LGIW_VALIDATE(std::isfinite(threshold) && threshold > 0, "--thresholds has " + std::to_string(threshold),
                   "a threshold is a change of the surface in m", "give numbers above 0");
@@ -361,6 +366,7 @@ int run(const Options& options, const std::string& command) {
   if (!options.maps.empty()) {
     make_folder(options.maps);
     results.check_files(wave_map_files(options.maps, options.thresholds));
+    results.check_files(snapshot_files(options.maps, run, snapshots));
   }
   results.hash_inputs();
 
@@ -408,6 +414,7 @@ int run(const Options& options, const std::string& command) {
   if (!options.maps.empty())
     m.shore_runup =
         write_wave_maps(options.maps, run, first_water, arrivals, m.gauges, m.peaks, options.common.overwrite);
+  write_snapshots(options.maps, run, snapshots, options.common.overwrite);
   results.summarise(options.summary,
                     summary_json(m, parameters_json(c, particles, deepest_water(header, first_water))));
   return 0;
@@ -467,6 +474,15 @@ int main(int argc, char** argv) {
   app.add_option("--maps", options.maps,
                  "Folder for GeoTIFFs of the maxima and wave.gpkg with shoreline, run-up along it and inundation")
       ->type_name("FOLDER")
+      ->group(outputs);
+  app.add_option(
+         "--snapshots", options.snapshots,
+         "Times of maps of the wave and the slide's speed, in the folder of --maps: first, last or seconds (the "
+         "nearest frame)")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->needs("--maps")
       ->group(outputs);
   add_common_options(app, options.common, library_versions());
   app.footer(

@@ -4,7 +4,9 @@
 # are near the site. A valley floor 160 m wide at 985 m comes from the east, bends, and runs south between banks of 35 degrees.
 BEGIN {
   side = 3000; cell = 10; west = 610000; south = 2729000                 # m; EPSG:32647
-  bed = 985; half_width = 80; steep = 0.70021; upper = 0.46631; knee = 1600  # m; tangents of 35 and 25 degrees; m
+  bed = 985; upper = 0.46631; knee = 1600                                # m; tangent of 25 degrees; m
+  if (!half_width) half_width = 80                                       # m; -v takes another
+  if (!steep) steep = 0.70021                                            # tangent of 35 degrees; -v takes another
   n = split("700 -200 1200 150 1600 600 1700 1000 1700 2000 1790 2260 1990 2460 2270 2560 2650 2600 3200 2500", axis, " ") / 2
 
   cells = side / cell

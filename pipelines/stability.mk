@@ -1,0 +1,45 @@
+# Where the solver is stable, and how it announces that it is not. Included by the Makefile.
+#
+#   make -C pipelines stability              all points of stability/matrix.jq: out/stability.csv, a table and a figure
+#   make -C pipelines stability AXES='CFL' VARIANTS=2-D   axes and variants whose names fit the regular expressions
+#
+# Every point is a small scene that departs from a sound one along one axis: twice in 2-D, at two particle spacings, once in 3-D.
+# STABILITY_JOBS runs at once, of one thread each; TIME_LIMIT seconds a run. Points that are there already are kept until the matrix or the
+# tools change.
+
+STABILITY_JOBS ?= $(shell nproc)
+TIME_LIMIT ?= 240
+AXES ?= .
+VARIANTS ?= .
+stability := $(here)/out/stability
+
+.PHONY: stability
+stability: $(here)/out/stability.txt $(here)/out/stability.png
+	@cat $<
+
+# A point whose case changes is another point.
+$(stability)/matrix.json: $(here)/stability/matrix.jq $(here)/stability/judge.jq $(here)/stability/run-point $(dem2particles) $(lgiw_run)
+	@rm -rf $(stability)
+	@mkdir -p $(stability)
+	@jq -n -f $< > $@
+
+# Always looked at: AXES may ask for other points than the last call did.
+.PHONY: stability-points
+stability-points: $(stability)/matrix.json
+	@for id in $$(jq -r --arg axes '$(AXES)' --arg variants '$(VARIANTS)' \
+	    'map(select((.axis | test($$axes)) and (.variant | test($$variants)))) | sort_by(.variant == "2-D fine", .variant == "3-D")[] | .id' $<); do \
+	  [ -e $(stability)/$$id/row.json ] || echo $$id; done \
+	| DEM2PARTICLES=$(dem2particles) LGIW_RUN=$(lgiw_run) TIME_LIMIT=$(TIME_LIMIT) \
+	  xargs -r -P $(STABILITY_JOBS) -I ID $(here)/stability/run-point ID $< $(stability)
+
+$(here)/out/stability.json: stability-points
+	@jq -s 'sort_by(.id)' $(stability)/*/row.json > $@
+
+$(here)/out/stability.csv: $(here)/out/stability.json
+	@jq -r '["axis", "value", "scene", "variant", "dimension", "resolution_m", "pass", "criterion", "dt_s", "dt_limited_by", "largest_stable_cfl", "particles", "wall_time_s", "announced"], (.[] | [.axis, .value, .scene, .variant, .dimension, .particle_spacing_m, .pass, .criterion, .dt_s, .dt_limited_by, .largest_stable_cfl, .particles, .wall_time_s, .announced]) | @csv' $< > $@
+
+$(here)/out/stability.txt: $(here)/stability/table.jq $(here)/out/stability.json $(here)/out/stability.csv
+	@jq -r -f $(wordlist 1,2,$^) | column -t -s "$$(printf '\t')" > $@
+
+$(here)/out/stability.png: $(here)/figures/stability.gp $(here)/out/stability.json
+	@echo "figure $(@F)"; gnuplot -e "data='< jq -r -f $(here)/stability/marks.jq $(here)/out/stability.json'; set output '$@'" $<

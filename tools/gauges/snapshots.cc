@@ -1,0 +1,77 @@
+#include "snapshots.hh"
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "measure/column_surface.hh"
+#include "terrain/geo_output.hh"
+
+namespace lgiw {
+namespace {
+
+std::string text_of(const char* pattern, double value) {
+  char text[60];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+/// "12s" of each frame.
+std::vector<std::string> time_names(const RunReader& run, const std::vector<std::size_t>& frames) {
+  std::set<long> seconds;
+  for (std::size_t k : frames) seconds.insert(std::lround(run.frame_time(k)));
+  const char* pattern = seconds.size() == frames.size() ? "%.0fs" : "%.3fs";
+  std::vector<std::string> names;
+  for (std::size_t k : frames) names.push_back(text_of(pattern, run.frame_time(k)));
+  return names;
+}
+
+ColumnParticles columns_of(const Frame& frame, const ParticleHeader& header) {
+  ColumnParticles columns;
+  columns.dimension = header.dimension, columns.dp = header.dp, columns.h = 1.5 * header.dp;
+  columns.n_water = header.counts.water, columns.n_soil = header.counts.soil;
+  columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
+  return columns;
+}
+
+std::string wave_file(const std::string& folder, const std::string& time) { return folder + "/wave_" + time + ".tif"; }
+std::string speed_file(const std::string& folder, const std::string& time) {
+  return folder + "/slide_speed_" + time + ".tif";
+}
+
+}  // namespace
+
+std::vector<std::string> snapshot_files(const std::string& folder, const RunReader& run,
+                                        const std::vector<std::size_t>& frames) {
+  std::vector<std::string> files;
+  for (const std::string& time : time_names(run, frames)) {
+    files.push_back(wave_file(folder, time));
+    if (run.has_soil_surface()) files.push_back(speed_file(folder, time));
+  }
+  return files;
+}
+
+void write_snapshots(const std::string& folder, const RunReader& run, const std::vector<std::size_t>& frames,
+                     bool overwrite) {
+  if (frames.empty()) return;
+  const RunHeader& header = run.header();
+  const ParticleHeader& particles = header.particles;
+  const GeoReference where{particles.origin, particles.crs_wkt};
+  const RasterGrid grid(header.map);
+  const std::vector<std::string> times = time_names(run, frames);
+  ColumnSurfaceMap surfaces_of(header.map, particles.bed);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Frame frame = run.frame(frames[k]);
+    const ColumnSurfaces surfaces = surfaces_of(columns_of(frame, particles));
+    const std::string at = text_of(" at %.2f s", frame.time);
+    std::vector<float> height = surfaces.water;
+    for (float& z : height) z = float(z - particles.still_water_level);
+    write_geotiff(wave_file(folder, times[k]), grid, height, where, "m",
+                  "water surface above the still water level" + at, overwrite);
+    if (run.has_soil_surface())
+      write_geotiff(speed_file(folder, times[k]), grid, surfaces.soil_speed, where, "m/s", "speed of the slide" + at,
+                    overwrite);
+  }
+}
+
+}  // namespace lgiw
