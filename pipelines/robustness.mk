@@ -3,7 +3,7 @@
 #   make -C pipelines robustness   kills, full and read-only disks, damaged checkpoints, too little memory, threads and
 #                                  resumption: out/robustness.json and .txt. COUNTS as below; ROBUSTNESS_TESTS names some.
 #   make -C pipelines fuzz         every reader of ours, MINUTES (60) each, under ASan and UBSan; needs clang
-#   make -C pipelines sanitize     the quick suite under ASan + UBSan, then under TSan; SANITIZE_TESTS=REGEX takes some
+#   make -C pipelines sanitize     the quick suite under ASan and UBSan; SANITIZE_TESTS=REGEX takes some
 #   make -C pipelines lint         static analysis: cppcheck
 #
 # docs/robustness.md has what they gave, and what each one means.
@@ -35,15 +35,11 @@ fuzz:
 	cmake --build $(root)/build/fuzz --target fuzz_targets
 	$(root)/tests/fuzz/fuzz $(root)/build/fuzz $(MINUTES)
 
-# Of the instruction sets the baseline: the passes are the same source. TSan needs an OpenMP library that tells it of its
-# barriers: clang's, with Archer; GCC's does not.
+# Of the instruction sets the baseline: the passes are the same source.
 SANITIZE_TESTS ?= .
 sanitize:
 	cd $(root) && cmake --preset asan && cmake --build --preset asan
-	cd $(root)/build/asan && ASAN_OPTIONS=detect_stack_use_after_return=1 ctest --output-on-failure -E Robustness -R '$(SANITIZE_TESTS)'
-	cd $(root) && cmake --preset tsan && cmake --build --preset tsan
-	cd $(root)/build/tsan && OMP_NUM_THREADS=2 OMP_TOOL_LIBRARIES=libarcher.so TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1 \
-	  ctest --output-on-failure -E Robustness -R '$(SANITIZE_TESTS)'
+	cd $(root)/build/asan && ctest --output-on-failure -E 'Robustness' -R '$(SANITIZE_TESTS)'
 
 lint:
 	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \

@@ -87,6 +87,8 @@ Handle access_properties(bool writing) {
   if (!writing) return list;
   // Without a chunk cache, chunks get their place at the write and not at some later flush.
   H5Pset_cache(list.id(), 0, 1, 0, 1.0);
+  // No buffer of small writes either: its last ones would come, and could fail, when a dataset is closed.
+  H5Pset_sieve_buf_size(list.id(), 0);
   H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   // Aggregated blocks are given back at each flush, which would make the layout depend on when that happens.
   H5Pset_meta_block_size(list.id(), 0);
