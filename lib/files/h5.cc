@@ -87,8 +87,6 @@ Handle access_properties(bool writing) {
   if (!writing) return list;
   // Without a chunk cache, chunks get their place at the write and not at some later flush.
   H5Pset_cache(list.id(), 0, 1, 0, 1.0);
-  // No buffer of small writes either: its last ones would come, and could fail, when a dataset is closed.
-  H5Pset_sieve_buf_size(list.id(), 0);
   H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   // Aggregated blocks are given back at each flush, which would make the layout depend on when that happens.
   H5Pset_meta_block_size(list.id(), 0);
@@ -193,6 +191,11 @@ Handle slab_of(hid_t dataset, const Shape& start, const Shape& count) {
       H5Sselect_valid(space.id()) <= 0)
     return Handle();
   return space;
+}
+
+/// Small writes reach the file when the dataset is closed, and fail there.
+void close_written(Handle& dataset, const std::string& path, const std::string& name) {
+  if (H5Dclose(dataset.release()) < 0) write_failed(path, name, reason());
 }
 
 void write_part(hid_t dataset, const std::string& path, const std::string& name, hid_t type, const void* data,
@@ -360,9 +363,10 @@ template <class T>
 void File::write_slab(const std::string& name, const T* data, const Shape& start, const Shape& count) {
   if (element_count(count) == 0) return;
   require_memory();
-  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
+  Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
+  close_written(dataset, path_, name);
 }
 
 template <class T>
@@ -375,7 +379,7 @@ template <class T>
 void File::append(const std::string& name, const T* data, const Shape& count) {
   if (element_count(count) == 0) return;
   require_memory();
-  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
+  Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   Shape start(count.size(), 0), size = extents(dataset.id());
   if (size.size() != count.size() || !std::equal(size.begin() + 1, size.end(), count.begin() + 1))
@@ -384,6 +388,7 @@ void File::append(const std::string& name, const T* data, const Shape& count) {
   size[0] += count[0];
   if (H5Dset_extent(dataset.id(), size.data()) < 0) write_failed(path_, name, reason());
   write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
+  close_written(dataset, path_, name);
 }
 
 template <class T>

@@ -32,6 +32,7 @@ std::string refusal(const std::function<void(hid_t, const std::string&)>& spoil)
 /// A file whose /x leads to the same name in another, and whose /soft leads there. Made before h5::File is used for the
 /// first time, which makes HDF5 forget such links.
 const std::string linked_file = [] {
+  H5dont_atexit();  // as h5::File has it, which comes too late for that
   const Scratch scratch;
   const std::string path = scratch / "a.h5";
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
