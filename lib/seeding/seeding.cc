@@ -34,7 +34,7 @@ struct Yield {
   ParticleCounts counts;
   double wall_volume = 0, body_volume = 0;   // body: of a rigid slide of a DEM
   double water_excess = 0, soil_excess = 0;  // over dp^D a particle
-  std::map<int64_t, int64_t> soil_columns;  // number of columns by their number of soil particles
+  std::map<int64_t, int64_t> soil_columns;   // number of columns by their number of soil particles
   void clear() { *this = {}; }
 };
 
@@ -125,8 +125,8 @@ struct Seeder::Parts {
 void Seeder::Parts::integrate() {
   const int parts = cells.two_d ? 16 : 3;
   const double step = cells.dp / parts, area = cells.two_d ? step : step * step;
-  double water = 0, soil = 0, moment = 0, deepest = 0;
-#pragma omp parallel reduction(+ : water, soil, moment) reduction(max : deepest)
+  double water = 0, soil = 0, moment = 0, deepest = 0, deepest_water = 0;
+#pragma omp parallel reduction(+ : water, soil, moment) reduction(max : deepest, deepest_water)
   {
     std::vector<PhaseInterval> column;
 #pragma omp for schedule(static)
@@ -144,6 +144,7 @@ void Seeder::Parts::integrate() {
               if (s.phase == Phase::water) {
                 water += volume;
                 deepest = std::max(deepest, s.surface - foot);
+                deepest_water = std::max(deepest_water, s.surface - s.low);
               } else {
                 soil += volume;
                 moment += volume * 0.5 * (s.low + s.high);
@@ -152,6 +153,7 @@ void Seeder::Parts::integrate() {
           }
   }
   report.water_expected = water, report.soil_expected = soil, report.max_water_depth = deepest;
+  report.greatest_depth = deepest_water;
   if (soil > 0 && c.water.present && std::isfinite(model.still_water_level))
     report.slide_drop_height = std::max(0.0, moment / soil - model.still_water_level);
 }

@@ -19,7 +19,9 @@ struct SeedingReport {
   double water_volume = 0, soil_volume = 0, wall_volume = 0;  // of the particles
   double water_expected = 0, soil_expected = 0;               // between bed, soil top and still water, integrated
   std::vector<double> body_volumes;                           // of ParticleHeader::bodies, of the particles
-  double max_water_depth = 0, slide_drop_height = 0;          // m; what the automatic sound speed rests on
+  double max_water_depth = 0, slide_drop_height = 0;          // m; what the automatic sound speed rests on: the depth
+                                                              // to the bed, below submerged soil too
+  double greatest_depth = 0;                                  // m; of the water itself
   double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
   double median_soil_column = 0;  // particles: median over the columns, one dp wide, that hold soil
 };

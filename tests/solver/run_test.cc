@@ -394,6 +394,44 @@ TEST_F(Run, DivergenceNamesParticlePlaceAndLastGoodState) {
   EXPECT_FALSE(exists("bad.h5.checkpoint"));
 }
 
+/// What is left out for a scene changes nothing else: water moves to the bit alike with and without soil out of reach.
+TEST_F(Run, WaterDoesNotKnowOfSoilThatItNeverMeets) {
+  const std::string alone = R"(name: water
+dimension: 2
+particle_spacing: 0.02
+terrain: {profile: [[0, 0.5], [0.01, 0], [1, 0], [1.4, 0.4], [3, 0.4], [3.01, 1]], wall_top: 1}
+water: {level: 0.3, sound_speed: 40, bodies: [[[0.01, 0], [0.5, 0], [0.5, 0.3], [0.01, 0.3]]]}
+output: {end_time: 0.4, frame_interval: 0.1, surface_interval: 0.05}
+)";
+  const std::string soil = R"(slide: {bodies: [[[2.5, 0.4], [3.0, 0.4], [3.0, 0.6], [2.5, 0.6]]]}
+soil: {young_modulus: 1.0e+6, friction_angle: 30, cohesion: 2000}
+)";
+  ASSERT_TRUE(make_particles(*shop, "alone", alone));
+  ASSERT_TRUE(make_particles(*shop, "both", alone + soil));
+  for (const std::string name : {"alone", "both"})
+    expect_quiet_success(
+        shop->run("lgiw-run " + name + ".h5 -o " + name + "-run.h5 --summary " + name + ".json" + quiet), "");
+  const RunReader with((*shop / "both-run.h5").string()), without((*shop / "alone-run.h5").string());
+  ASSERT_EQ(with.frame_count(), 5u);
+  ASSERT_EQ(without.frame_count(), 5u);
+  const std::size_t n = without.header().particles.counts.water;
+  ASSERT_EQ(with.header().particles.counts.water, n);
+  ASSERT_GT(with.header().particles.counts.soil, 100u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const Frame a = with.frame(k), b = without.frame(k);
+    EXPECT_EQ(a.time, b.time);
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+      ASSERT_EQ(a.points[i], b.points[i]) << "frame " << k << ", component " << i;
+      ASSERT_EQ(a.velocity[i], b.velocity[i]) << "frame " << k << ", component " << i;
+    }
+    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(a.pressure[i], b.pressure[i]) << "frame " << k << ", particle " << i;
+  }
+  // And it costs nothing: no array of soil is held.
+  EXPECT_LT(double(summary("alone").at("bytes")), 0.7 * double(summary("both").at("bytes")));
+  EXPECT_NE(summary("alone").at("left_out").dump().find("soil (stress, Adps, soil and interface kernels)"),
+            std::string::npos);
+}
+
 TEST_F(Run, AFailedStretchIsTakenAgainWithASmallerTimeStep) {
   particles("slide");
   // Verlet's time stepping feeds slowly on strong density diffusion, the more the longer its steps.

@@ -63,7 +63,7 @@ ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& see
   // Reservoir and slide as the terrain has them, from the cells of the source.
   if (c.water.present) {
     j["water"] = volumes(r.counts.water, r.water_volume, r.water_expected, model.reservoir_volume);
-    j["water"]["greatest_depth"] = r.max_water_depth;
+    j["water"]["greatest_depth"] = r.greatest_depth;
     j["water"]["sound_speed"] = seeder.header().sound_speed;
   }
   if (c.has_soil()) j["soil"] = volumes(r.counts.soil, r.soil_volume, r.soil_expected, model.slide_volume);
@@ -83,9 +83,9 @@ ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& see
               {"run_time_s", run.run_time}};
   const auto across = [](double particles) { return particles > 0 ? std::optional<double>(particles) : std::nullopt; };
   const ErrorClass error =
-      expected_error(across(r.median_soil_column), across(r.counts.water > 0 ? r.max_water_depth / c.dp : 0));
+      expected_error(across(r.median_soil_column), across(r.counts.water > 0 ? r.greatest_depth / c.dp : 0));
   j["resolution"] = {{"slide_thickness_particles", r.median_soil_column},
-                     {"water_depth_particles", r.counts.water > 0 ? r.max_water_depth / c.dp : 0}};
+                     {"water_depth_particles", r.counts.water > 0 ? r.greatest_depth / c.dp : 0}};
   j["expected_error"] = error.text;
   j["notes"] = model.notes;
   return j;
