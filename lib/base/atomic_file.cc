@@ -4,13 +4,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/error.hh"
 
@@ -70,10 +74,11 @@ AtomicFile::~AtomicFile() {
   if (!committed_) unlink(temporary_.c_str());
 }
 
+void AtomicFile::fail(const std::string& why) const {
+  throw WorkError(path_ + " was not written", why, "make room or mend the folder, then run again");
+}
+
 void AtomicFile::commit() {
-  const auto fail = [this](const std::string& why) {
-    throw WorkError(path_ + " was not written", why, "make room or mend the folder, then run again");
-  };
   if (!sync_to_disk(temporary_, O_RDWR)) fail(std::strerror(errno));
   const int renamed = overwrite_ ? std::rename(temporary_.c_str(), path_.c_str())
                                  : rename_without_replacing(temporary_.c_str(), path_.c_str());
@@ -83,8 +88,41 @@ void AtomicFile::commit() {
   if (renamed != 0) fail(std::strerror(errno));
   committed_ = true;
   // The content is safe and visible; a file system that cannot sync a folder is no reason to fail.
-  sync_to_disk(folder_of(path_), O_RDONLY | O_DIRECTORY);
+  sync_folder_of(path_);
 }
+
+void AtomicFile::commit_keeping(const std::string& previous) {
+  if (!sync_to_disk(temporary_, O_RDWR)) fail(std::strerror(errno));
+  if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
+    // What was temporary is now the old file.
+    committed_ = true;
+    if (std::rename(temporary_.c_str(), previous.c_str()) != 0) fail(std::strerror(errno));
+    sync_folder_of(path_);
+    return;
+  }
+  if (access(path_.c_str(), F_OK) == 0 && std::rename(path_.c_str(), previous.c_str()) != 0) fail(std::strerror(errno));
+  commit();
+}
+
+void remove_abandoned(const std::string& path) {
+  const std::filesystem::path target(path);
+  const std::string start = "." + target.stem().string() + "-", suffix = target.extension().string();
+  std::error_code none;
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_of(path), none)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t end = start.size() + 6;  // mkstemps: six letters or digits
+    if (name.size() < end || name.compare(0, start.size(), start) != 0 ||
+        !std::all_of(name.begin() + long(start.size()), name.begin() + long(end),
+                     [](unsigned char c) { return std::isalnum(c); }))
+      continue;
+    const std::string rest = name.substr(end);
+    if ((rest == suffix || rest == suffix + ".journal") && entry.is_regular_file(none)) found.push_back(entry.path());
+  }
+  for (const auto& file : found) std::filesystem::remove(file, none);
+}
+
+void sync_folder_of(const std::string& path) { sync_to_disk(folder_of(path), O_RDONLY | O_DIRECTORY); }
 
 void write_text_file(const std::string& path, const std::string& text, bool overwrite) {
   if (path == "-") {

@@ -21,12 +21,22 @@ class AtomicFile {
   /// Same folder; keeps the extension of `path` last, since GDAL's drivers go by it. Hidden, so that no glob finds it.
   const std::string& temporary() const { return temporary_; }
   void commit();
+  /// As commit(), with the file that has the name now kept as `previous`. At any moment there is a whole file at path(),
+  /// where the file system can exchange names; elsewhere it lacks for a moment, in which `previous` is there.
+  void commit_keeping(const std::string& previous);
 
  private:
+  [[noreturn]] void fail(const std::string& why) const;
   std::string path_, temporary_;
   bool overwrite_;
   bool committed_ = false;
 };
+
+/// Removes the temporary files that killed processes left of an AtomicFile of `path`. Only where none is being written.
+void remove_abandoned(const std::string& path);
+
+/// Brings renamed and removed names in the folder of `path` to the disk, where its file system can do that.
+void sync_folder_of(const std::string& path);
 
 /// Writes `text` to `path` through an AtomicFile; "-" is stdout.
 void write_text_file(const std::string& path, const std::string& text, bool overwrite);

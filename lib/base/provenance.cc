@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -58,7 +59,9 @@ std::string Provenance::to_json() const {
 
 std::string version_string() { return LGIW_VERSION; }
 
-std::string sha256_of_file(const std::string& path) {
+std::string sha256_of_file(const std::string& path) { return sha256_of_start(path, UINT64_MAX); }
+
+std::string sha256_of_start(const std::string& path, uint64_t size) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   const auto refuse = [&path] {
     throw InputError(path + " cannot be read", std::strerror(errno), "check the name and its permissions");
@@ -66,8 +69,11 @@ std::string sha256_of_file(const std::string& path) {
   if (!file) refuse();
   Sha256 sha256;
   std::vector<char> buffer(1 << 20);
-  for (std::size_t size; (size = std::fread(buffer.data(), 1, buffer.size(), file.get())) > 0;)
-    sha256.add(buffer.data(), size);
+  for (std::size_t n; size > 0; size -= n) {
+    n = std::fread(buffer.data(), 1, std::size_t(std::min<uint64_t>(buffer.size(), size)), file.get());
+    if (n == 0) break;
+    sha256.add(buffer.data(), n);
+  }
   if (std::ferror(file.get())) refuse();
   return sha256.hex();
 }

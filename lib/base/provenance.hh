@@ -1,6 +1,7 @@
 // Where a result comes from: program, version, command line, inputs and their SHA-256.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ struct Provenance {
 /// Project version and git hash of the build: "0.1.0 (git 1a2b3c4)", "0.1.0 (no git)" when built outside a clone.
 std::string version_string();
 std::string sha256_of_file(const std::string& path);  // throws InputError when it cannot be read
+/// Of the first `size` bytes.
+std::string sha256_of_start(const std::string& path, uint64_t size);
 std::string sha256_of_text(const std::string& text);
 
 }  // namespace lgiw

@@ -1,5 +1,6 @@
 #include "files/h5.hh"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <new>
 #include <numeric>
 
 #include "base/error.hh"
@@ -19,11 +21,27 @@ constexpr hsize_t chunk_bytes = hsize_t(1) << 20;
 // zlib cannot pack better than 1032:1.
 constexpr hsize_t deflate_limit = 1100;
 
+/// HDF5 1.10 crashes where its own small allocations fail: they must not.
+void require_memory() {
+  constexpr std::size_t enough = std::size_t(8) << 20;
+  void* const place = mmap(nullptr, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place == MAP_FAILED) throw std::bad_alloc();
+  munmap(place, enough);
+}
+
+void rethrow_lack_of_memory(const std::string& why) {
+  if (why.find("memory allocation failed") != std::string::npos) throw std::bad_alloc();
+}
+
 /// Silences HDF5's own printing. Its clean-up at exit is left out too: after a failed write (disk full) it tries the
 /// same write again and complains on stderr, and all our files are closed by then.
 void set_up_library() {
+  require_memory();
   static const bool once = [] {
     H5dont_atexit();
+    // A file must neither make HDF5 load code nor read other files.
+    H5PLset_loading_state(0);
+    H5Lunregister(H5L_TYPE_EXTERNAL);
     return true;
   }();
   (void)once;
@@ -51,11 +69,13 @@ std::string reason() {
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 [[noreturn]] void read_failed(const std::string& path, const std::string& object, const std::string& why) {
+  rethrow_lack_of_memory(why);
   throw InputError("cannot read " + quoted(object) + " of " + quoted(path), why,
                    "the file is damaged or of another kind, make it again");
 }
 
 [[noreturn]] void write_failed(const std::string& path, const std::string& object, const std::string& why) {
+  rethrow_lack_of_memory(why);
   throw WorkError("cannot write " + (object.empty() ? "" : quoted(object) + " of ") + quoted(path), why,
                   "see that the disk has room and that the folder can be written");
 }
@@ -134,6 +154,10 @@ Handle open_for_reading(hid_t file, const std::string& path, const std::string& 
   if (!link_exists(file, name)) read_failed(path, name, "there is no such dataset");
   Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
   if (!dataset) read_failed(path, name, reason());
+  const Handle list(H5Dget_create_plist(dataset.id()));
+  if (!list) read_failed(path, name, reason());
+  if (H5Pget_layout(list.id()) == H5D_VIRTUAL || H5Pget_external_count(list.id()) != 0)
+    read_failed(path, name, "its values lie in another file");
   return dataset;
 }
 
@@ -167,6 +191,11 @@ Handle slab_of(hid_t dataset, const Shape& start, const Shape& count) {
       H5Sselect_valid(space.id()) <= 0)
     return Handle();
   return space;
+}
+
+/// Small writes reach the file when the dataset is closed, and fail there.
+void close_written(Handle& dataset, const std::string& path, const std::string& name) {
+  if (H5Dclose(dataset.release()) < 0) write_failed(path, name, reason());
 }
 
 void write_part(hid_t dataset, const std::string& path, const std::string& name, hid_t type, const void* data,
@@ -239,6 +268,23 @@ File File::create(const std::string& path) {
   return File(std::move(file), path);
 }
 
+File File::create_journaled(const std::string& path) {
+  set_up_library();
+  const Handle creation = creation_properties(H5P_FILE_CREATE);
+  const Handle access = access_properties(true);
+  auto journal = std::make_shared<Journal>();
+  journal->path = journal_path(path);
+  set_journaled_driver(access.id(), journal);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()));
+  if (!file) write_failed(path, "", reason());
+  return File(std::move(file), path, std::move(journal));
+}
+
+void File::renamed(const std::string& path) {
+  path_ = path;
+  if (journal_) journal_->path = journal_path(path);
+}
+
 namespace {
 
 Handle open_existing(const std::string& path, bool writing) {
@@ -291,6 +337,7 @@ std::vector<std::string> File::children(const std::string& group) const {
 template <class T>
 void File::create_dataset(const std::string& name, const Shape& shape, bool extendible, bool deflate,
                           const Shape& chunk) {
+  require_memory();
   make_group(parent(name));
   const Handle creation = creation_properties(H5P_DATASET_CREATE);
   Shape largest = shape;
@@ -315,9 +362,11 @@ void File::create_dataset(const std::string& name, const Shape& shape, bool exte
 template <class T>
 void File::write_slab(const std::string& name, const T* data, const Shape& start, const Shape& count) {
   if (element_count(count) == 0) return;
-  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
+  require_memory();
+  Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
+  close_written(dataset, path_, name);
 }
 
 template <class T>
@@ -329,7 +378,8 @@ void File::write(const std::string& name, const T* data, const Shape& shape, boo
 template <class T>
 void File::append(const std::string& name, const T* data, const Shape& count) {
   if (element_count(count) == 0) return;
-  const Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
+  require_memory();
+  Handle dataset(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT));
   if (!dataset) write_failed(path_, name, reason());
   Shape start(count.size(), 0), size = extents(dataset.id());
   if (size.size() != count.size() || !std::equal(size.begin() + 1, size.end(), count.begin() + 1))
@@ -338,13 +388,16 @@ void File::append(const std::string& name, const T* data, const Shape& count) {
   size[0] += count[0];
   if (H5Dset_extent(dataset.id(), size.data()) < 0) write_failed(path_, name, reason());
   write_part(dataset.id(), path_, name, native_type<T>(), data, start, count);
+  close_written(dataset, path_, name);
 }
 
 template <class T>
 std::vector<T> File::read(const std::string& name, Shape* shape) const {
+  require_memory();
   const Handle dataset = open_for_reading(handle_.id(), path_, name);
   const Shape size = backed_shape(handle_.id(), path_, name, dataset.id());
   std::vector<T> data(element_count(size));
+  require_memory();
   if (!data.empty() && H5Dread(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
     read_failed(path_, name, reason());
   if (shape) *shape = size;
@@ -354,6 +407,7 @@ std::vector<T> File::read(const std::string& name, Shape* shape) const {
 template <class T>
 void File::read_slab(const std::string& name, T* data, const Shape& start, const Shape& count) const {
   if (element_count(count) == 0) return;
+  require_memory();
   const Handle dataset = open_for_reading(handle_.id(), path_, name);
   const Shape size = backed_shape(handle_.id(), path_, name, dataset.id());
   const Handle file_space = slab_of(dataset.id(), start, count);
@@ -403,6 +457,7 @@ namespace {
 
 void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name,
                      const Handle& type, const Handle& space, const void* data) {
+  require_memory();
   const std::string full = object + "@" + name;
   const Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT));
   if (!owner) write_failed(path, object, reason());
@@ -515,6 +570,8 @@ double File::number_attribute(const std::string& object, const std::string& name
 }
 
 void File::flush() {
+  require_memory();
+  arm();
   if (H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL) < 0) write_failed(path_, "", reason());
 }
 
@@ -523,6 +580,7 @@ void File::close() {
   unsigned intent = 0;
   H5Fget_intent(handle_.id(), &intent);
   if (intent & H5F_ACC_RDWR) flush();
+  arm();
   if (H5Fclose(handle_.release()) < 0) write_failed(path_, "", reason());
 }
 

@@ -8,8 +8,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "files/journaled_driver.hh"
 
 namespace lgiw::h5 {
 
@@ -43,17 +46,22 @@ using Shape = std::vector<hsize_t>;
 
 /// An HDF5 file. Object times are never tracked, so that reruns are byte-identical. Reading errors (not HDF5,
 /// truncated, missing or wrongly shaped objects) are InputError; writing errors are WorkError. Not for several threads
-/// at once.
+/// at once. What leads out of the file - external links, external or virtual datasets - is not followed, and no filter
+/// is loaded from elsewhere.
 class File {
  public:
   static File create(const std::string& path);
+  /// A file that is at any moment that of its last flush() or close(), whatever happens to the process; see
+  /// journaled_driver.hh. One that is closed after an error, without close(), stays so too. Throws WorkError also where
+  /// another process is writing it.
+  static File create_journaled(const std::string& path);
   /// Files are not locked: one that another process is still writing can be read as of its last flush.
   static File open_read(const std::string& path);
   static File open_write(const std::string& path);  // read and write an existing file
 
   const std::string& path() const { return path_; }
   /// The file has another name now; for error messages.
-  void renamed(const std::string& path) { path_ = path; }
+  void renamed(const std::string& path);
   bool exists(const std::string& object) const;                       // every link on the way too
   void make_group(const std::string& group);                          // with parents
   std::vector<std::string> children(const std::string& group) const;  // names, sorted
@@ -104,7 +112,12 @@ class File {
   void close();  // throws WorkError when the last bytes cannot be written
 
  private:
-  File(Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}
+  File(Handle handle, std::string path, std::shared_ptr<Journal> journal = nullptr)
+      : journal_(std::move(journal)), handle_(std::move(handle)), path_(std::move(path)) {}
+  void arm() {
+    if (journal_) journal_->armed = true;
+  }
+  std::shared_ptr<Journal> journal_;
   Handle handle_;
   std::string path_;
 };

@@ -95,7 +95,7 @@ int64_t read_count(const h5::File& file, const std::string& object, const std::s
 }  // namespace
 
 RunWriter::RunWriter(const std::string& path, const RunHeader& header)
-    : file_((check_particle_header(header.particles, path), h5::File::create(path))), header_(header) {
+    : file_((check_particle_header(header.particles, path), h5::File::create_journaled(path))), header_(header) {
   const ParticleCounts& counts = header_.particles.counts;
   const hsize_t n = hsize_t(moving(counts));
   const SurfaceMap& map = header_.map;
@@ -162,6 +162,7 @@ RunWriter::RunWriter(const std::string& path, const RunHeader& header)
 }
 
 RunWriter RunWriter::reopen(const std::string& path, int64_t n_frames, int64_t n_surfaces, int64_t n_diagnostics) {
+  h5::carry_out_journal(path);
   RunReader old(path);
   const auto require = [&](const std::string& what, int64_t found, int64_t wanted) {
     LGIW_VALIDATE(
@@ -311,7 +312,6 @@ void RunWriter::write_maxima(const std::map<std::string, std::vector<float>>& ra
 void RunWriter::write_summary(const std::string& json) { file_.set_attribute("/lgiw", "Summary", json); }
 
 void RunWriter::flush() {
-  file_.flush();
   file_.set_attribute(steps, "NSteps", frames_);
   file_.set_attribute("/lgiw/surface", "Count", surfaces_);
   if (!header_.pressure_gauges.empty()) file_.set_attribute(pressure_group, "Count", surfaces_);

@@ -17,8 +17,8 @@
 //       the surfaces; one float32 [nt] dataset a gauge, by its name: pressure of the water, Pa; 0 where there is none
 //   /lgiw/diagnostics: attribute Count (nd); time float64 [nd], and one float64 [nd] dataset a quantity (the columns of the
 //       diagnostics CSV)
-// Steps@NSteps and the Count attributes are written at flush(), after all else is in the file: they alone say how much of
-// it is valid. In a file whose writer was killed, datasets may be longer than they say.
+// Steps@NSteps and the Count attributes are written at flush(), with all else that it brings to the file: they alone say how
+// much of it is valid. In a file whose writer was killed, datasets may be longer than they say.
 // Surface series are deflated tiles of at most 128 x 128 nodes of one map, so that a node's series is cheap to read.
 #pragma once
 
@@ -59,7 +59,7 @@ struct RunHeader {
 };
 
 /// Writes a run frame by frame; the file is whole and readable after every flush(), whatever happens to the process before the
-/// next one. The moments of flush() leave no trace in the file. Throws WorkError when arrays have the wrong length or the disk
+/// next one: killed within a flush(), it is brought to the end of that one or the one before by reopen(). The moments of flush() leave no trace in the file. Throws WorkError when arrays have the wrong length or the disk
 /// is full. Vectors for what the scene lacks (pressure and water without water, adps and soil without soil) are empty.
 class RunWriter {
  public:

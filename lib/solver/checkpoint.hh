@@ -1,4 +1,4 @@
-// Restart state on disk: always one whole file, checksummed, replaced only by a newer whole one.
+// Restart state on disk: always one whole file, sealed with a digest of all its bytes, replaced only by a newer whole one.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,14 @@ struct Checkpoint {
   std::vector<RawArray> arrays;  // Simulation::save()
 };
 
-/// Writes to a temporary file, keeps the present `path` as `path` + ".previous", and renames.
+/// Writes to a temporary file, brings it to the disk, and gives it the name; what had it is kept as `path` + ".previous".
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
-/// Throws InputError when the file is damaged (checksum) or belongs to another run.
+/// Throws InputError when the file is damaged (told by its digest, before HDF5 sees it) or belongs to another run.
 Checkpoint read_checkpoint(const std::string& path, const std::string& identity);
 /// The newest sound one of `path` and its predecessor; a damaged newer one is reported through `note`.
 Checkpoint read_newest_checkpoint(const std::string& path, const std::string& identity, std::string* note);
 std::string previous_checkpoint(const std::string& path);
+/// Appends the digest without which read_checkpoint() takes a file for damaged.
+void seal_checkpoint(const std::string& path);
 
 }  // namespace lgiw

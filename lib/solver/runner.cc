@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/atomic_file.hh"
 #include "base/error.hh"
 #include "base/provenance.hh"
 #include "files/run_file.hh"
@@ -39,7 +40,8 @@ using Clock = std::chrono::steady_clock;
 volatile std::sig_atomic_t caught_signal = 0;
 void on_signal(int s) { caught_signal = s; }
 
-/// Catches SIGINT and SIGTERM while it lives.
+/// Catches SIGINT, SIGTERM and SIGHUP (the terminal is gone) while it lives; the last not where nohup has it ignored. A
+/// closed pipe behind the log ends no run.
 class SignalGuard {
  public:
   SignalGuard() {
@@ -48,15 +50,21 @@ class SignalGuard {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, &old_int_);
     sigaction(SIGTERM, &action, &old_term_);
+    sigaction(SIGHUP, &action, &old_hangup_);
+    if (old_hangup_.sa_handler == SIG_IGN) sigaction(SIGHUP, &old_hangup_, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, &old_pipe_);
   }
   ~SignalGuard() {
     sigaction(SIGINT, &old_int_, nullptr);
     sigaction(SIGTERM, &old_term_, nullptr);
+    sigaction(SIGHUP, &old_hangup_, nullptr);
+    sigaction(SIGPIPE, &old_pipe_, nullptr);
   }
 
  private:
   struct sigaction old_int_ {
-  }, old_term_{};
+  }, old_term_{}, old_hangup_{}, old_pipe_{};
 };
 
 constexpr const char* limit_names[] = {"acoustic", "force", "viscous", "diffusive"};
@@ -121,6 +129,9 @@ class Runner {
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
     last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
     place_pressure_gauges();
+    LGIW_VALIDATE(!h5::is_being_written(partial_path(options.output)), options.output + " is being written",
+                  "another lgiw-run has " + partial_path(options.output) + " open",
+                  "wait for it or stop it, or choose another name");
     identity_ = identity(data);
     if (options.resume)
       resumed_ = read_newest_checkpoint(checkpoint_path(options.output), identity_, &resume_note_);
@@ -157,6 +168,7 @@ class Runner {
       keep();
     }
     while (outputs_ <= last_output_) {
+      checkpoint_if_due();
       if (!advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time)) continue;
       record();
       keep();
@@ -226,7 +238,16 @@ class Runner {
     log(s.str());
   }
 
+  /// Of runs of this name that were killed while they wrote; beside the partial run and the checkpoints no use any
+  /// more.
+  void remove_leftovers() const {
+    remove_abandoned(checkpoint_path(options_.output));
+    remove_abandoned(partial_path(options_.output));
+    remove_abandoned(options_.output);
+  }
+
   void open() {
+    remove_leftovers();
     for (const std::string& path : checkpoints()) fs::remove(path);  // of an earlier run: no state of this one
     RunHeader h;
     h.particles = header_;
@@ -286,17 +307,23 @@ class Runner {
         batch_ = std::min<int64_t>(2 * batch_, 1000);
       else if (seconds > 0.4)
         batch_ = std::max<int64_t>(batch_ / 2, 1);
-      if (caught_signal) {
-        checkpoint();
-        throw Interrupted{caught_signal};
-      }
       progress(st);
-      if (elapsed() > checkpoint_at_) {
-        checkpoint();
-        checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
-      }
+      if (st.time < target) checkpoint_if_due();
     }
     return true;
+  }
+
+  /// By the clock, and on a signal. Not between the last step to an output time and record(), which looks at what that step
+  /// left in arrays that no checkpoint holds.
+  void checkpoint_if_due() {
+    if (caught_signal) {
+      checkpoint();
+      throw Interrupted{caught_signal};
+    }
+    if (elapsed() > checkpoint_at_) {
+      checkpoint();
+      checkpoint_at_ = elapsed() + case_.output.checkpoint_interval;
+    }
   }
 
   static bool failed(const StepState& st) { return st.failed_water != UINT32_MAX || st.failed_soil != UINT32_MAX; }
@@ -524,6 +551,7 @@ class Runner {
 
   void resume() {
     if (!resume_note_.empty()) log(resume_note_);
+    remove_leftovers();
     const Checkpoint c = std::move(resumed_);
     restore(c);
     earlier_ = c.wall_time;
@@ -616,6 +644,7 @@ class Runner {
     std::error_code ec(synced ? 0 : errno, std::generic_category());
     if (descriptor >= 0) close(descriptor);
     if (synced) fs::rename(partial, options_.output, ec);
+    if (!ec) sync_folder_of(options_.output);  // before the checkpoints go
     if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial);
     for (const std::string& path : checkpoints()) fs::remove(path, ec);
     return j.dump(1);

@@ -27,8 +27,8 @@ struct RunOptions {
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s);
 
 /// Runs a case. The run file grows under a hidden temporary name beside `output` and takes that name when it is
-/// complete; checkpoints lie beside it as OUTPUT.checkpoint. Returns the summary as JSON. SIGINT and SIGTERM end the
-/// step, write a checkpoint and throw Interrupted. A particle in a state that is not finite or out of range throws
+/// complete; checkpoints lie beside it as OUTPUT.checkpoint. Returns the summary as JSON. SIGINT, SIGTERM and SIGHUP end
+/// the step, write a checkpoint and throw Interrupted. A particle in a state that is not finite or out of range throws
 /// WorkError with its place and the last good checkpoint.
 std::string run_case(const Case& c, const ParticleData& data, const RunOptions& options);
 

@@ -28,9 +28,29 @@ std::string at_key(const Case& c, const std::string& key) {
   return place.empty() ? "" : place + ": ";
 }
 
+namespace {
+
+/// A case may come from a stranger: the files that it names are files; they open no connection and start no program.
+void register_drivers() {
+  GDALAllRegister();
+  GDALDriverManager* manager = GetGDALDriverManager();
+  for (const char* name :
+       {"AmigoCloud", "Carto",      "CSW",    "DAAS",      "EEDA",         "EEDAI",    "Elasticsearch", "GeoRaster",
+        "GMLAS",      "GPSBabel",   "HTTP",   "MongoDBv3", "MSSQLSpatial", "MySQL",    "NGW",           "OAPIF",
+        "OCI",        "ODBC",       "OGCAPI", "OGR_OGDI",  "PGeo",         "PLMOSAIC", "PLSCENES",      "PostGISRaster",
+        "PostgreSQL", "Rasterlite", "STACIT", "STACTA",    "WCS",          "WFS",      "WMS",           "WMTS"})
+    if (GDALDriver* driver = manager->GetDriverByName(name)) manager->DeregisterDriver(driver);
+  // The only name that /vsicurl/ and its like would open.
+  CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
+  // What drivers fetch for themselves, such as schemas, has to go through this.
+  CPLSetConfigOption("GDAL_HTTP_PROXY", "none://none");
+}
+
+}  // namespace
+
 QuietGdal::QuietGdal() {
   static std::once_flag registered;
-  std::call_once(registered, GDALAllRegister);
+  std::call_once(registered, register_drivers);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   CPLErrorReset();
 }

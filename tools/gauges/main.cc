@@ -52,7 +52,7 @@ struct Measurements {
 
 std::string library_versions() {
   std::string netcdf = nc_inq_libvers();
-  netcdf = netcdf.substr(0, netcdf.find(' '));
+  netcdf.resize(std::min(netcdf.find(' '), netcdf.size()));
   return std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version() + ", netCDF " + netcdf;
 }
 
