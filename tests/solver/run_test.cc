@@ -520,7 +520,9 @@ TEST_F(Run, AFailedStretchIsTakenAgainWithASmallerTimeStep) {
   const auto a = run.water_surface(20), b = usual.water_surface(20);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
-    if (!std::isnan(a[i]) && !std::isnan(b[i])) EXPECT_NEAR(a[i], b[i], 0.01) << i;
+    if (!std::isnan(a[i]) && !std::isnan(b[i])) {
+      EXPECT_NEAR(a[i], b[i], 0.01) << i;
+    }
 }
 
 TEST_F(Run, StepsThatFailHoweverSmallStopTheRun) {
