@@ -70,7 +70,7 @@ TEST(Stability, TheMatrixIsATableAndAFigure) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("empty reservoir"), std::string::npos) << outcome.out;
   const std::string csv = read_bytes(shop / "stability.csv");
-  EXPECT_EQ(csv.compare(0, 40, "\"axis\",\"value\",\"scene\",\"variant\",\"dimensi"), 0) << csv.substr(0, 60);
+  EXPECT_EQ(csv.rfind("\"axis\",\"value\",\"scene\",\"variant\"", 0), 0u) << csv.substr(0, 60);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);  // the header and six points
   EXPECT_EQ(read_bytes(shop / "stability.png").compare(1, 3, "PNG"), 0);
 }
