@@ -3,9 +3,9 @@
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
-#include <cstdlib>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
