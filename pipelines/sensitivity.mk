@@ -19,7 +19,7 @@ sensitivity_plan := $(sensitivity)/plan.json
 
 # The line of the case's summary, as shell; it is out of date when the case has been run again since.
 uncertainty_line = if [ -e $(sensitivity_json) ] && ! [ $(out)/run.h5 -nt $(sensitivity_json) ]; then jq -r .line $(sensitivity_json); \
-  else echo "not studied$$(if [ -e $(sensitivity_json) ]; then echo " since the last run"; fi); type make -C pipelines $(if $(CASE_DIR),CASE_DIR=$(CASE_DIR),CASE=$(CASE)) sensitivity"; fi
+  else echo "not studied$$(if [ -e $(sensitivity_json) ]; then echo " since the last run"; fi); type make -C pipelines $(if $(CASE_DIR),CASE_DIR=$(CASE_DIR),CASE=$(CASE))$(if $(filter 1,$(words $(DP))), DP=$(strip $(DP))) sensitivity"; fi
 
 .PHONY: sensitivity sensitivity-results
 # What can be varied is known once the case itself has been run: hence the second make.
@@ -47,8 +47,8 @@ $(sensitivity)/%/overrides: $(sensitivity_plan)
 	@jq -r '.variants["$*"] | map("--set " + .) | join(" ")' $< > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
-$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(dem2particles)
-	$(dem2particles) $(case) $$(cat $<) -o $@ -O -q
+$(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(user_maps) $(dem2particles)
+	$(dem2particles) $(case) $(set_flags) $$(cat $<) -o $@ -O -q
 
 $(sensitivity)/%/run.h5 $(sensitivity)/%/run.json: $(sensitivity)/%/particles.h5 $(lgiw_run)
 	$(lgiw_run) $< -o $(@D)/run.h5 -O --progress --summary $(@D)/run.json $(RUN_FLAGS)

@@ -11,10 +11,12 @@ STABILITY_JOBS ?= $(shell nproc)
 TIME_LIMIT ?= 240
 AXES ?= .
 VARIANTS ?= .
-stability := $(here)/out/stability
+# Where the results go.
+stability_out ?= $(here)/out
+stability := $(stability_out)/stability
 
 .PHONY: stability
-stability: $(here)/out/stability.txt $(here)/out/stability.png
+stability: $(stability_out)/stability.txt $(stability_out)/stability.png
 	@cat $<
 
 # A point whose case changes is another point.
@@ -32,14 +34,14 @@ stability-points: $(stability)/matrix.json
 	| DEM2PARTICLES=$(dem2particles) LGIW_RUN=$(lgiw_run) TIME_LIMIT=$(TIME_LIMIT) \
 	  xargs -r -P $(STABILITY_JOBS) -I ID $(here)/stability/run-point ID $< $(stability)
 
-$(here)/out/stability.json: stability-points
+$(stability_out)/stability.json: stability-points
 	@jq -s 'sort_by(.id)' $(stability)/*/row.json > $@
 
-$(here)/out/stability.csv: $(here)/out/stability.json
+$(stability_out)/stability.csv: $(stability_out)/stability.json
 	@jq -r '["axis", "value", "scene", "variant", "dimension", "resolution_m", "pass", "criterion", "dt_s", "dt_limited_by", "largest_stable_cfl", "particles", "wall_time_s", "announced"], (.[] | [.axis, .value, .scene, .variant, .dimension, .particle_spacing_m, .pass, .criterion, .dt_s, .dt_limited_by, .largest_stable_cfl, .particles, .wall_time_s, .announced]) | @csv' $< > $@
 
-$(here)/out/stability.txt: $(here)/stability/table.jq $(here)/out/stability.json $(here)/out/stability.csv
+$(stability_out)/stability.txt: $(here)/stability/table.jq $(stability_out)/stability.json $(stability_out)/stability.csv
 	@jq -r -f $(wordlist 1,2,$^) | column -t -s "$$(printf '\t')" > $@
 
-$(here)/out/stability.png: $(here)/figures/stability.gp $(here)/out/stability.json
-	@echo "figure $(@F)"; gnuplot -e "data='< jq -r -f $(here)/stability/marks.jq $(here)/out/stability.json'; set output '$@'" $<
+$(stability_out)/stability.png: $(here)/figures/stability.gp $(stability_out)/stability.json
+	@echo "figure $(@F)"; gnuplot -e "data='< jq -r -f $(here)/stability/marks.jq $(stability_out)/stability.json'; set output '$@'" $<

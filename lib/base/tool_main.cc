@@ -53,7 +53,9 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
   app.add_flag("-q,--quiet", options.quiet, "Nothing on stderr but errors")->group(group);
   app.add_flag("-v,--verbose", options.verbose, "More on stderr; may be repeated")->group(group);
   app.add_flag("--progress", options.progress, "Progress even where stderr is no terminal")->group(group);
-  app.add_flag("!--no-provenance", options.provenance, "Leave command line and versions out of the outputs")
+  app.add_flag_callback(
+         "--no-provenance", [&options] { options.provenance = false; },
+         "Leave command line and versions out of the outputs")
       ->group(group);
   app.add_flag("--json", options.json, "Summary on stdout as JSON")->group(group);
   app.set_version_flag("--version", app.get_name() + " " + version_string() + "\n" + library_versions)->group(group);

@@ -39,7 +39,7 @@ struct Terrain {
   bool fill_voids = false;             // true: interpolate; false: refuse a window with voids
   double spike_threshold = 0;  // m above or below all neighbours that makes a cell a spike; 0: 3 pixels at 60 degrees
   bool remove_spikes = false;
-  std::optional<std::array<double, 4>> window;  // x_min, y_min, x_max, y_max; default: the common extent
+  std::optional<std::array<double, 4>> window;  // x_min, y_min, x_max, y_max; default: see case-reference.yaml
   // Analytic terrain instead of rasters: the bed z(x) as a polyline, the same for all y.
   std::vector<Point2> profile;
   double width = 0;  // m in y, 3-D analytic scenes only; domain y from 0 to width
@@ -227,7 +227,7 @@ struct Case {
 /// Reads and validates a case. `path` "-" is stdin. Throws InputError with `path:line:` in front for syntax, unknown
 /// keys (naming the nearest known one), values out of the range of their unit, and impossible combinations. Opens no
 /// other file. `overrides` are `key.sub=value` strings from --set, applied before validation: the value is YAML, list
-/// items are named by number from 0 (`gauges.0.x=12`), and `null` removes a key or section.
+/// items are named by number from 0 (`gauges.0.x=12`), `list+=item` adds one, and `null` removes a key or section.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 Case parse_case(const std::string& text, const std::string& name_for_messages,
                 const std::vector<std::string>& overrides = {});

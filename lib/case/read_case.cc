@@ -7,6 +7,7 @@
 
 #include "base/error.hh"
 #include "case/case.hh"
+#include "case/overridden_case.hh"
 #include "case/validate_case.hh"
 #include "case/yaml_document.hh"
 
@@ -339,8 +340,8 @@ const std::set<std::string>& known_keys() {
 
 std::vector<std::string> known_case_keys() { return {known_keys().begin(), known_keys().end()}; }
 
-Case parse_case(const std::string& text, const std::string& name_for_messages,
-                const std::vector<std::string>& overrides) {
+Case parse_overridden_case(const std::string& text, const std::string& name_for_messages,
+                           const std::vector<Override>& overrides) {
   YamlDocument document(text, name_for_messages, overrides);
   document.check_keys(known_keys());
   Case c;
@@ -352,9 +353,15 @@ Case parse_case(const std::string& text, const std::string& name_for_messages,
   return c;
 }
 
-Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+Case parse_case(const std::string& text, const std::string& name_for_messages,
+                const std::vector<std::string>& overrides) {
+  std::vector<Override> given;
+  for (const std::string& option : overrides) given.push_back(override_of_option(option));
+  return parse_overridden_case(text, name_for_messages, given);
+}
+
+std::string read_case_text(const std::string& path, const std::string& what) {
   std::string text;
-  const std::string name = path == "-" ? "stdin" : path;
   const auto read = [&text](std::istream& stream) {
     // One byte more than a case may have: enough to be refused, whatever comes through the pipe.
     text.resize((1 << 20) + 1);
@@ -363,17 +370,21 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
     return !stream.bad();
   };
   if (path == "-") {
-    LGIW_VALIDATE(read(std::cin), "stdin cannot be read", "the pipe failed", "name the case file instead");
+    LGIW_VALIDATE(read(std::cin), "stdin cannot be read", "the pipe failed", "name the file instead");
   } else {
-    LGIW_VALIDATE(std::filesystem::exists(path), path + " does not exist", "a case file is needed",
+    LGIW_VALIDATE(std::filesystem::exists(path), path + " does not exist", what + " is needed",
                   "check the name and the folder you are in");
-    LGIW_VALIDATE(!std::filesystem::is_directory(path), path + " is a folder", "a case file is needed",
+    LGIW_VALIDATE(!std::filesystem::is_directory(path), path + " is a folder", what + " is needed",
                   "name the file in it");
     std::ifstream file(path, std::ios::binary);
     LGIW_VALIDATE(file && read(file), path + " cannot be read", "the file could not be opened",
                   "check its permissions");
   }
-  Case c = parse_case(text, name, overrides);
+  return text;
+}
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  Case c = parse_case(read_case_text(path, "a case file"), path == "-" ? "stdin" : path, overrides);
   c.path = path;
   return c;
 }

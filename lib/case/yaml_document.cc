@@ -78,23 +78,6 @@ class LiteralCheck : public YAML::EventHandler {
   std::optional<YAML::Mark> document_;
 };
 
-/// One document of literal YAML; null for an empty text.
-YAML::Node parse_yaml(const std::string& text, const std::string& name) {
-  try {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    LiteralCheck check(name);
-    while (parser.HandleNextDocument(check)) {
-    }
-    return YAML::Load(text);
-  } catch (const YAML::DeepRecursion& e) {
-    refuse(line_place(name, e.mark), "not a case", "it nests hundreds of levels deep",
-           "check brackets and indentation");
-  } catch (const YAML::Exception& e) {
-    refuse(line_place(name, e.mark), "not valid YAML", shown(e.msg), "check indentation, brackets and quotes here");
-  }
-}
-
 std::vector<std::string> components(const std::string& key) {
   std::vector<std::string> parts(1);
   for (const char c : key) {
@@ -142,6 +125,24 @@ std::pair<std::string, std::string> number_mistake(const std::string& text) {
 
 }  // namespace
 
+YAML::Node parse_yaml(const std::string& text, const std::string& name) {
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    LiteralCheck check(name);
+    while (parser.HandleNextDocument(check)) {
+    }
+    return YAML::Load(text);
+  } catch (const YAML::DeepRecursion& e) {
+    refuse(line_place(name, e.mark), "not a case", "it nests hundreds of levels deep",
+           "check brackets and indentation");
+  } catch (const YAML::Exception& e) {
+    refuse(line_place(name, e.mark), "not valid YAML", shown(e.msg), "check indentation, brackets and quotes here");
+  }
+}
+
+Override override_of_option(const std::string& text) { return {text, "--set " + shown(text)}; }
+
 bool Quantity::admits(double value) const {
   if (value == 0 && (or_zero || automatic)) return true;
   return (above_low ? value > low : value >= low) && (below_high ? value < high : value <= high);
@@ -158,7 +159,7 @@ std::string Quantity::range() const {
   return "it must be " + text + of_unit;
 }
 
-YamlDocument::YamlDocument(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)
+YamlDocument::YamlDocument(const std::string& text, const std::string& name, const std::vector<Override>& overrides)
     : name_(name) {
   if (text.size() > max_text)
     refuse(name + ":1", "more than 1 MiB of text", "a case is a page or two", "put outlines into a vector file");
@@ -174,19 +175,27 @@ YamlDocument::YamlDocument(const std::string& text, const std::string& name, con
   if (!root_.IsMap() && !root_.IsNull())
     refuse(line_place(name, root_.Mark()), "not a case", "it is " + kind_of(root_) + " where keys are wanted",
            "start from docs/case-reference.yaml");
-  for (const std::string& override_text : overrides) apply(override_text);
+  for (const Override& given : overrides) apply(given);
   places_[""] = name + ":1";
 }
 
-void YamlDocument::apply(const std::string& override_text) {
-  const std::string place = "--set " + shown(override_text);
+void YamlDocument::apply(const Override& given) {
+  const auto& [override_text, place] = given;
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos || equals == 0)
     refuse(place, "not an override", "key and value are joined by =", "write --set key.sub=value");
   if (override_text.size() > max_text)
     refuse(place, "more than 1 MiB of text", "an override is one value", "write it into the case file");
-  const std::string key = override_text.substr(0, equals);
+  const bool append = override_text[equals - 1] == '+';
+  const std::string key = override_text.substr(0, append ? equals - 1 : equals);
   YAML::Node value = parse_yaml(override_text.substr(equals + 1), place);
+  std::string overridden = key;
+  const auto add_to = [&](YAML::Node list) {
+    if (list.IsDefined() && !list.IsSequence() && !list.IsNull())
+      refuse(place, key + " is " + kind_of(list), "items are added to a list", "write " + key + "=VALUE");
+    list.push_back(value);
+    overridden += "." + std::to_string(list.size() - 1);
+  };
   const std::vector<std::string> parts = components(key);
   YAML::Node node = root_;
   std::string reached;
@@ -200,7 +209,9 @@ void YamlDocument::apply(const std::string& override_text) {
       if (error != std::errc() || *stop != 0 || index >= node.size())
         refuse(place, "there is no item " + parts[i] + " in " + reached,
                "it is a list of " + std::to_string(node.size()), "count from 0");
-      if (last && value.IsNull())
+      if (last && append)
+        add_to(node[index]);
+      else if (last && value.IsNull())
         node.remove(index);
       else if (last)
         node[index] = value;
@@ -209,7 +220,9 @@ void YamlDocument::apply(const std::string& override_text) {
     } else {
       if (!node.IsMap() && !node.IsNull())
         refuse(place, reached + " has no keys", "it is " + kind_of(node), "name a key that exists");
-      if (last && value.IsNull())
+      if (last && append)
+        add_to(node[parts[i]]);
+      else if (last && value.IsNull())
         node.remove(parts[i]);
       else if (last)
         node[parts[i]] = value;
@@ -221,7 +234,7 @@ void YamlDocument::apply(const std::string& override_text) {
     if (!last) node.reset(child);
     reached += (i ? "." : "") + parts[i];
   }
-  overrides_.emplace_back(key, place);
+  overrides_.emplace_back(overridden, place);
 }
 
 const std::string* YamlDocument::override_of(const std::string& key) const {

@@ -24,6 +24,15 @@ struct UnitMistake {
   double factor;
 };
 
+/// A key's value from outside of the document: `key.sub=value`, or `key.sub+=item` for one more item of a list.
+struct Override {
+  std::string text, place;  // errors name the place
+};
+Override override_of_option(const std::string& text);  // its place is `--set text`
+
+/// One document of literal YAML, null for an empty text; errors name `name:line`.
+YAML::Node parse_yaml(const std::string& text, const std::string& name);
+
 /// The values that a key admits.
 struct Quantity {
   std::string unit = {};
@@ -42,7 +51,7 @@ class YamlDocument {
   YamlDocument() = default;
   /// Parses `text` and applies `overrides`. Refuses what is not one YAML mapping: syntax errors, anchors and aliases,
   /// several documents, binary files, more than 1 MiB.
-  YamlDocument(const std::string& text, const std::string& name, const std::vector<std::string>& overrides);
+  YamlDocument(const std::string& text, const std::string& name, const std::vector<Override>& overrides);
 
   const YAML::Node& root() const { return root_; }
   /// Dotted key (list items by number from 0) -> "file:line" or "--set key=value".
@@ -58,14 +67,14 @@ class YamlDocument {
   std::set<std::string> asked;  // dotted keys that a YamlSection was asked for, without list numbers
 
  private:
-  void apply(const std::string& override_text);
+  void apply(const Override& override);
   void check_keys(const YAML::Node& node, const std::string& key, const std::string& known_key,
                   const std::set<std::string>& known);
   const std::string* override_of(const std::string& key) const;
 
   YAML::Node root_{YAML::NodeType::Undefined};
   std::string name_;
-  std::vector<std::pair<std::string, std::string>> overrides_;  // (dotted key, "--set key=value")
+  std::vector<std::pair<std::string, std::string>> overrides_;  // (dotted key, place)
   std::map<std::string, std::string> places_;
 };
 

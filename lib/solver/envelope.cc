@@ -36,13 +36,13 @@ std::vector<EnvelopeAxis> envelope_of(const Case& c, const ModelParameters& p) {
   if (soil) {
     const double weight = p.soil_density * g * p.soil_height;
     const double soil_wave = SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density);
-    axes.push_back({"Young modulus / weight of the soil", p.young_modulus / weight, 10, none,
+    axes.push_back({"Young modulus / weight of the soil", p.young_modulus / weight, 2.7, none,
                     "the soil sags under its weight before it slides: raise soil.young_modulus", ""});
     axes.push_back(
         {"Poisson ratio", p.poisson_ratio, 0.1, 0.49, "nothing so low was tried", "nothing so high was tried"});
-    axes.push_back({"cohesion / weight of the soil", p.cohesion / weight, 0, 3, "", "nothing so strong was tried"});
+    axes.push_back({"cohesion / weight of the soil", p.cohesion / weight, 0, 5, "", "nothing so strong was tried"});
     if (water) {
-      axes.push_back({"wave speed of the soil / of the water", soil_wave / p.sound_speed, 0.05, 30,
+      axes.push_back({"wave speed of the soil / of the water", soil_wave / p.sound_speed, 0.07, 30,
                       "nothing so soft was tried",
                       "nearly every time step is for the sound of the soil: lower soil.young_modulus"});
       axes.push_back({"density of the soil / of the water", p.soil_density / p.water_density, 0.9, 5,

@@ -68,7 +68,7 @@ struct Parameters {
   T speed_limit;  // faster than this is a failed state
   // Time step.
   double cfl, fastest_wave, slowest_viscous;  // c, h / (alpha c) limit
-  double diffusive_step;                      // s: limit of the density and the stress diffusion
+  double diffusive_step, viscous_step;        // s: limits of stability whatever the CFL number
   bool verlet;
 
   Parameters() = default;
@@ -133,6 +133,7 @@ struct Parameters {
     const double alpha_c = std::max(water ? p.water_alpha * c : 0.0, p.soil_alpha * cs);
     slowest_viscous = alpha_c > 0 ? p.h / alpha_c : 1e30;
     cfl = p.cfl, verlet = p.verlet;
+    viscous_step = viscous_limit(verlet) * slowest_viscous;
     const double delta_c = std::max(water ? p.density_diffusion * c : 0.0, p.stress_diffusion * cs);
     diffusive_step = delta_c > 0 ? diffusive_limit(verlet) * p.h / delta_c : 1e30;
   }

@@ -1110,7 +1110,8 @@ LGIW_FN void finish_step(const Parameters<Tr>& p, const Limits<typename Tr::T>& 
     st.euler_countdown = st.euler_countdown == 0 ? 40 : st.euler_countdown - 1;
   }
   st.dt = p.cfl * st.share * dt;
-  // A limit of stability itself, whatever the CFL number.
+  // Limits of stability itself, whatever the CFL number.
+  if (st.share * p.viscous_step < st.dt) st.dt = st.share * p.viscous_step, limit = 2;
   if (st.share * p.diffusive_step < st.dt) st.dt = st.share * p.diffusive_step, limit = 3;
   st.limit = limit;
 }

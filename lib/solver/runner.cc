@@ -139,6 +139,7 @@ class Runner {
       refuse_unfinished();
     initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
     simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
+    if (options.wrap) simulation_ = options.wrap(std::move(simulation_));
     log("model: " + simulation_->description());
     describe();
     for (const std::string& line : simulation_->left_out()) log("left out: " + line);
@@ -170,6 +171,7 @@ class Runner {
       checkpoint_if_due();
       if (!advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time)) continue;
       record();
+      return_to_usual_step();
       keep();
     }
     return finish();
@@ -297,10 +299,6 @@ class Runner {
         go_back(st);
         return false;
       }
-      if (st.share < 1 && st.time > retaken_.until) {
-        simulation_->limit_time_step(1);
-        retaken_.tries = 0;
-      }
       // As many steps at a stroke as keep signals and progress prompt.
       if (seconds < 0.1)
         batch_ = std::min<int64_t>(2 * batch_, 1000);
@@ -312,8 +310,8 @@ class Runner {
     return true;
   }
 
-  /// By the clock, and on a signal. Not between the last step to an output time and record(), which looks at what that step
-  /// left in arrays that no checkpoint holds.
+  /// By the clock, and on a signal. Not between the last step to an output time and record(): it looks at what that
+  /// step left in arrays that no checkpoint holds.
   void checkpoint_if_due() {
     if (caught_signal) {
       checkpoint();
@@ -358,6 +356,14 @@ class Runner {
                   at.time, static_cast<long long>(at.step), st.time, 1 << retaken_.tries);
     log(line);
     warnings_.push_back(line);
+  }
+
+  /// At the times of outputs only, which do not depend on how fast the machine is.
+  void return_to_usual_step() {
+    const StepState st = simulation_->state();
+    if (st.share == 1 || st.time <= retaken_.until) return;
+    simulation_->limit_time_step(1);
+    retaken_.tries = 0;
   }
 
   void give_up(const StepState& st) {

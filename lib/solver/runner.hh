@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "case/case.hh"
 #include "files/particle_file.hh"
+#include "solver/simulation.hh"
 
 namespace lgiw {
 
@@ -15,6 +17,8 @@ struct RunOptions {
   std::string provenance_json;                               // of this run
   std::function<void(double, const std::string&)> progress;  // fraction done, note
   std::function<void(const std::string&)> log;               // one line
+  /// What stands between the run and its solver, where something does: tests make steps fail there.
+  std::function<std::unique_ptr<Simulation>(std::unique_ptr<Simulation>)> wrap;
 };
 
 /// What a run would cost: counts, memory (of a simulation on the CPU, which is made but takes no step), time step,

@@ -44,8 +44,11 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
   const RasterSource* finest = &mosaic.sources[0];
   for (const RasterSource& source : mosaic.sources) {
     const Extent& e = source.extent();
+    // A local map that is spliced into what lies below it narrows nothing.
+    const bool within = e[0] >= common[0] && e[1] >= common[1] && e[2] <= common[2] && e[3] <= common[3];
+    const bool first = &source == &mosaic.sources[0];
     for (int k = 0; k < 2; ++k) {
-      common[k] = std::max(common[k], e[k]), common[k + 2] = std::min(common[k + 2], e[k + 2]);
+      if (first || !within) common[k] = std::max(common[k], e[k]), common[k + 2] = std::min(common[k + 2], e[k + 2]);
       all[k] = std::min(all[k], e[k]), all[k + 2] = std::max(all[k + 2], e[k + 2]);
     }
     if (source.pixel() <= finest->pixel() * (1 + 1e-9)) finest = &source;

@@ -9,13 +9,18 @@ set grid front lc rgb "#ffffff" lw 0.5 dt 3
 set key outside bottom center horizontal width 2
 set style textbox opaque noborder fillcolor rgb "#40ffffff" margins 0.4,0.4
 map_height(width) = int(width * 0.77 * (y1 - y0) / (x1 - x0))
-light(s) = 60 + 0.76 * s
+# Slopes towards the light are grey as well: white looks as if nothing were known there.
+light(s) = 60 + 0.62 * s
 hillshade = work."/hillshade.xyz"
 present(file) = int(system(sprintf("test -s '%s' && echo 1 || echo 0", file)))
 # Gauges as x, y, name; ends of sections as x, y, name.
 gauge_points(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {print $3, $4, $1}' '%s'", file)
 section_lines(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {if (n > 2 && $1 != s) print \"\"; print $4, $5; s = $1}' '%s'", file)
 section_ends(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {if ($1 != s) {if (s) print p; print $4, $5, $1} s = $1; p = $4 \" \" $5 \" \" $1 \"\\047\"} END {print p}' '%s'", file)
+# Labels of points in the easternmost `part` of the map stand west of these. Of the points on one side, every `step`th from `k` on;
+# a point far outside stands for none, as gnuplot warns of empty data.
+side(points, sign, part, step, k) = sprintf("%s | awk '$1 %s %.3f && n++ %% %d == %d {found = 1; print} END {if (!found) print 1e9, 1e9, 0, 0}'", \
+  points, sign, x1 - part * (x1 - x0), step, k)
 # One colour a class of thickness of the slide; thinner than half a metre is not drawn.
 thin = 0xd9a066; middle = 0xa0622d; thick = 0x5b2c0c
 shade(t) = int(t < 5 ? thin : t < 20 ? middle : thick)

@@ -4,6 +4,7 @@ load "ground.gp"
 stats work."/max_elevation.xyz" using ($3 - level) nooutput; top = STATS_max
 slide = work."/thickness.xyz"; gauges = out."/peaks.csv"; profiles = out."/profiles.csv"
 has_slide = present(slide); has_gauges = present(gauges); has_sections = present(profiles)
+gauge_labels = has_gauges ? gauge_points(gauges) : "< true"
 
 set contour base; set cntrparam levels discrete level; unset surface
 set table work."/shoreline.txt"
@@ -24,7 +25,8 @@ plot [x0:x1] [y0:y1] hillshade using 1:2:(light($3)):(light($3)):(0.97 * light($
      for [i = 1:has_sections] section_lines(profiles) using 1:2 with lines lc rgb red lw 2 title "section", \
      for [i = 1:has_sections] section_ends(profiles) using 1:2:3 with labels tc rgb red font ",15" offset 1.2,0.6 notitle, \
      for [i = 1:has_gauges] gauge_points(gauges) using 1:2 with points pt 7 ps 1.3 lc rgb "black" title "gauge", \
-     for [i = 1:has_gauges] gauge_points(gauges) using 1:2:3 with labels left boxed offset 1,0.4 font ",12" notitle, \
+     side(gauge_labels, "<", 0.1, 1, 0) using 1:2:3 with labels left boxed offset 1,0.4 font ",12" notitle, \
+     side(gauge_labels, ">=", 0.1, 1, 0) using 1:2:3 with labels right boxed offset -1,0.4 font ",12" notitle, \
      for [i = 1:has_slide] keyentry with boxes fs solid fc rgb thin title "slide 0.5-5 m", \
      for [i = 1:has_slide] keyentry with boxes fs solid fc rgb middle title "slide 5-20 m", \
      for [i = 1:has_slide] keyentry with boxes fs solid fc rgb thick title "slide over 20 m"

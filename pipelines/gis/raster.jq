@@ -4,6 +4,8 @@ def colours: { # from low to high
   max_elevation: ["#f4f9fd", "#c6dbef", "#6baed6", "#2171b5", "#08306b"],
   max_depth: ["#f7fbff", "#c6dbef", "#6baed6", "#2171b5", "#08306b"],
   max_speed: ["#ffffcc", "#fed976", "#fd8d3c", "#e31a1c", "#800026"],
+  height: ["#eaf4fc", "#9ecae1", "#3182bd", "#08306b", "#5a0f6b"],
+  share: ["#ffffcc", "#fed976", "#fd8d3c", "#e31a1c", "#800026"],
   arrival: ["#b30000", "#fc8d59", "#fee08b", "#99d594", "#3288bd"],
   thickness: ["#f6e8c3", "#dfc27d", "#bf812d", "#8c510a", "#402000"]};
 def hazard_classes: [[1, "#ffd92f", "below 1 m"], [2, "#f57c00", "1 m to 3 m"], [3, "#b30000", "above 3 m"]];
@@ -39,12 +41,13 @@ def smooth: "<provider><resampling enabled=\"true\" zoomedInResamplingMethod=\"c
     <resamplingStage>provider</resamplingStage>
     ";
 
-.bands[0] as $band | ($band.unit // "") as $unit | ($name | sub("^arrival_.*"; "arrival")) as $kind
+.bands[0] as $band | ($band.unit // "") as $unit | ($name | sub("^envelope_"; "") | sub("^arrival_.*"; "arrival") | sub("^share_.*"; "share")) as $kind
 # A raster without a value has no range.
-| ($band.computedMin // 0) as $least | ([$band.computedMax // 1, $least + 1e-6] | max) as $high
+| ($band.computedMin // 0) as $least | (if $kind == "share" then 1 else [$band.computedMax // 1, $least + 1e-6] | max end) as $high
 | (if $kind == "max_elevation" then [$level | tonumber, $least] | if .[0] < $high then .[0] else .[1] end
    elif $kind == "thickness" then [$least, 0.5, $high / 2] | if .[0] > 0 then .[0] else ([.[1], .[2]] | min) end
-   elif $kind == "max_depth" or $kind == "max_speed" then 0 else $least end) as $low
+   elif $kind == "max_depth" or $kind == "max_speed" or $kind == "height" then 0
+   elif $kind == "share" then $high / 1000 else $least end) as $low
 | "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>
 <qgis version=\"3.22\" styleCategories=\"Symbology\">
   <pipe>

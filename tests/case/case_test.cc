@@ -279,6 +279,24 @@ TEST(Case, OverridesReplaceAddAndRemove) {
   EXPECT_TRUE(parse_case(minimal + "gauges: [{name: G1, x: 1, y: 2}]\n", "c.yaml", {"gauges.0=null"}).gauges.empty());
 }
 
+TEST(Case, AnOverrideAddsToAList) {
+  const Case c = parse_case(minimal + slide, "c.yaml",
+                            {"terrain.sources+={file: site.tif}", "gauges+={name: G1, x: 390000, y: 3795000}",
+                             "gauges+={name: G2, x: 390100, y: 3795000}", "gauges.1.x=390200"});
+  ASSERT_EQ(c.terrain.sources.size(), 2u);
+  EXPECT_EQ(c.terrain.sources[1].file, "site.tif");
+  EXPECT_EQ(c.where("terrain.sources.1"), "--set terrain.sources+={file: site.tif}");
+  EXPECT_EQ(c.where("terrain.sources.0").rfind("c.yaml:", 0), 0u) << c.where("terrain.sources.0");
+  ASSERT_EQ(c.gauges.size(), 2u);
+  EXPECT_EQ(c.gauges[1].x, 390200);
+  try {
+    parse_case(minimal + slide, "c.yaml", {"water.level+=3"});
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()).rfind("--set water.level+=3: water.level is \"", 0), 0u) << e.what();
+  }
+}
+
 TEST(Case, StoredTextHoldsTheOverrides) {
   // The text goes with the results; whoever reads it there must see the case that was run.
   const std::string text = minimal + slide + "gauges: [{name: \"007\", x: 390000, y: 3795000.123456789}]\n";

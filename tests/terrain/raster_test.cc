@@ -207,6 +207,17 @@ TEST(Splice, DefaultWindowIsTheCommonExtent) {
   EXPECT_DOUBLE_EQ(model.origin[1] + model.domain[3], 397.5);
 }
 
+TEST(Splice, ASourceWithinTheOthersNarrowsNoDefaultWindow) {
+  Scratch scratch;
+  const std::string coarse =
+      write_asc(scratch("coarse.asc"), 0, 0, 20, std::vector<std::vector<double>>(20, std::vector<double>(20, 100)));
+  const std::string site =
+      write_asc(scratch("site.asc"), 100, 100, 5, std::vector<std::vector<double>>(40, std::vector<double>(40, 110)));
+  const TerrainModel model = build(raster_case({coarse, site}, 5));
+  EXPECT_DOUBLE_EQ(model.origin[0] + model.domain[0], 2.5);
+  EXPECT_DOUBLE_EQ(model.origin[1] + model.domain[3], 397.5);
+}
+
 TEST(Splice, SourceOfFinerThanParticlesIsAveraged) {
   Scratch scratch;
   const TerrainModel model = build(raster_case(

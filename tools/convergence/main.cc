@@ -224,7 +224,7 @@ int main(int argc, char** argv) {
   app.add_option("--summary", options.summary, "The same as JSON")->type_name("FILE")->group(outputs);
   const std::string versions = std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version();
   add_common_options(app, options.common, versions);
-  app.footer("Example:\n  convergence dp20.h5 dp10.h5 dp5.h5 -o convergence.csv --difference-maps differences");
+  app.footer("Examples:\n  $ convergence dp20.h5 dp10.h5 dp5.h5 -o convergence.csv --difference-maps differences");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });
 }

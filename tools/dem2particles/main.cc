@@ -13,6 +13,7 @@
 #include "base/atomic_file.hh"
 #include "base/error.hh"
 #include "base/tool_main.hh"
+#include "case/sweep.hh"
 #include "seeding/run_estimate.hh"
 #include "seeding/seeding.hh"
 
@@ -26,7 +27,7 @@ const std::string library_versions = std::string("GDAL ") + GDAL_RELEASE_NAME + 
                                      std::to_string(H5_VERS_RELEASE);
 
 struct Options {
-  std::string case_file, output;
+  std::string case_file, output, sweep;
   std::vector<std::string> overrides;
   bool dry_run = false;
   double rate = 0;
@@ -148,7 +149,34 @@ std::string report_text(const ordered_json& j) {
   return text;
 }
 
+/// A value as it stands in YAML: a number where it is one, else its text.
+ordered_json json_value(const std::string& yaml) {
+  if (yaml.empty()) return nullptr;
+  const ordered_json value = ordered_json::parse(yaml, nullptr, false);
+  return value.is_number() || value.is_boolean() ? value : ordered_json(yaml);
+}
+
+int list_sweep(const Options& options) {
+  LGIW_VALIDATE(options.output.empty() && !options.dry_run, "--sweep comes with --output or --dry-run",
+                "it lists the runs of a sweep and makes no particles", "Give it alone");
+  const Sweep sweep = read_sweep(options.sweep, options.case_file, options.overrides);
+  ordered_json list{{"keys", sweep.keys}, {"runs", ordered_json::array()}};
+  std::string lines;
+  for (const SweepRun& r : sweep.runs) {
+    ordered_json inputs = ordered_json::object();
+    for (std::size_t k = 0; k < sweep.keys.size(); ++k) inputs[sweep.keys[k]] = json_value(r.inputs[k]);
+    list["runs"].push_back(
+        {{"name", r.name}, {"inputs", inputs}, {"overrides", r.overrides}, {"case_text", r.case_text}});
+    lines += r.name + "\t";
+    for (const std::string& o : r.overrides) lines += (&o == &r.overrides.front() ? "" : " ") + ("--set '" + o + "'");
+    lines += "\n";
+  }
+  std::cout << (options.common.json ? list.dump(2) + "\n" : lines);
+  return 0;
+}
+
 int run(const Options& options, const std::string& command) {
+  if (!options.sweep.empty()) return list_sweep(options);
   LGIW_VALIDATE(options.dry_run || !options.output.empty(), "no output is named", "particles are written to a file",
                 "Give -o particles.h5, or --dry-run for counts only");
   const bool quiet = options.common.quiet;
@@ -212,15 +240,20 @@ int main(int argc, char** argv) {
   app.add_option("case", options.case_file, "Case file (YAML); - for stdin")->required()->type_name("CASE");
   app.add_option("-o,--output", options.output, "Particles file to write (VTKHDF)")->type_name("FILE");
   app.add_option("--set", options.overrides, "Override a key of the case, e.g. --set water.level=745; may be repeated")
-      ->type_name("KEY=VALUE")
+      ->type_name("KEY=VALUE or LIST+=ITEM")
       ->allow_extra_args(false);
   app.add_flag("--dry-run", options.dry_run, "Counts, volumes and what a run will take; writes nothing");
+  app.add_option(
+         "--sweep", options.sweep,
+         "List the runs of a sweep, a line a run: its name, and its --set; every run's case is checked, and nothing "
+         "is written")
+      ->type_name("SWEEP.yaml");
   app.add_option("--rate", options.rate, "Particle-steps a second that run times are estimated with")
       ->type_name("NUMBER")
       ->check(CLI::PositiveNumber);
   add_common_options(app, options.common, library_versions);
   app.footer(
-      "Example:\n  dem2particles case.yaml --dry-run\n  dem2particles case.yaml -o particles.h5 --set "
+      "Examples:\n  $ dem2particles case.yaml --dry-run\n  $ dem2particles case.yaml -o particles.h5 --set "
       "particle_spacing=10");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });

@@ -301,8 +301,8 @@ int main(int argc, char** argv) {
   const std::string versions = std::string("GDAL ") + GDAL_RELEASE_NAME + ", HDF5 " + hdf5_version();
   add_common_options(app, options.common, versions);
   app.footer(
-      "Example:\n  deposit-volume run.h5 -o slide.csv --thickness thickness.tif --profiles profiles.csv --at "
-      "first,20,last\n  deposit-volume run.h5 --compare surface.csv --compare volumes.csv");
+      "Examples:\n  $ deposit-volume run.h5 -o slide.csv --thickness thickness.tif --profiles profiles.csv --at "
+      "first,20,last\n  $ deposit-volume run.h5 --compare surface.csv --compare volumes.csv");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });
 }

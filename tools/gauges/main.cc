@@ -486,9 +486,9 @@ int main(int argc, char** argv) {
       ->group(outputs);
   add_common_options(app, options.common, library_versions());
   app.footer(
-      "Example:\n  gauges run.h5 -o gauges.csv --peaks peaks.csv --runup runup.csv --maps maps --thresholds 0.5,1\n"
-      "  gauges run.h5 --gauge P1,389450,3794050 --heights\n"
-      "  gauges run.h5 --compare measured.csv --compare-output comparison.csv");
+      "Examples:\n  $ gauges run.h5 -o gauges.csv --peaks peaks.csv --runup runup.csv --maps maps --thresholds 0.5,1\n"
+      "  $ gauges run.h5 --gauge P1,389450,3794050 --heights\n"
+      "  $ gauges run.h5 --compare measured.csv --compare-output comparison.csv");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });
 }

@@ -225,8 +225,8 @@ int main(int argc, char** argv) {
   app.add_option("--summary", options.summary, "The same as JSON")->type_name("FILE")->group(outputs);
   add_common_options(app, options.common, "HDF5 " + hdf5_version());
   app.footer(
-      "Example:\n  impulse-wave run.h5\n"
-      "  impulse-wave --speed 58 --thickness 12 --width 100 --volume 220000 --density 1700 --slope 40 --depth 80 \\\n"
+      "Examples:\n  $ impulse-wave run.h5\n"
+      "  $ impulse-wave --speed 58 --thickness 12 --width 100 --volume 220000 --density 1700 --slope 40 --depth 80 \\\n"
       "    --distance 500,1700 --angle 20 --bank-slope 35");
   const std::string command = command_line(argc, argv);
   return tool_main(app, argc, argv, [&] { return run(options, command); });

@@ -130,22 +130,37 @@ int main(int argc, char** argv) {
       "Runs the soil-water SPH simulation of a particles file and writes frames, surfaces, maxima and diagnostics.",
       "lgiw-run");
   Options o;
-  app.add_option("PARTICLES", o.particles, "particles file of dem2particles")->required();
-  app.add_option("-o,--output", o.output, "run file to write (VTKHDF)");
-  app.add_option("--case", o.case_file, "case file in place of the one inside PARTICLES (same dimension and spacing)");
-  app.add_option("--set", o.overrides, "KEY=VALUE: overrides a key of the case, e.g. --set soil.friction_angle=25");
-  app.add_option("--backend", o.backend, "auto, cpu or cuda")->check(CLI::IsMember({"auto", "cpu", "cuda"}));
-  app.add_option("--threads", o.threads, "OpenMP threads; 0: all")->check(CLI::Range(0, 1024));
-  app.add_flag("--resume", o.resume, "go on from the checkpoint beside the output");
-  app.add_flag("--dry-run", o.dry_run, "print particle counts, time step, steps and run time as JSON; start nothing");
-  app.add_option("--rate", o.rate, "particle-steps per second that --dry-run assumes")->check(CLI::PositiveNumber);
-  app.add_option("--summary", o.summary, "write the summary (JSON) there");
-  app.add_option("--diagnostics", o.diagnostics, "write the diagnostics table (CSV) there; - is standard output");
-  app.add_option("--xmf", o.xmf, "write an Xdmf sidecar for ParaView before 5.12");
+  app.add_option("particles", o.particles, "Particles file, as dem2particles writes it")
+      ->required()
+      ->type_name("PARTICLES.h5");
+  app.add_option("-o,--output", o.output, "Run file to write (VTKHDF)")->type_name("FILE");
+  app.add_option("--case", o.case_file,
+                 "Case file in place of the one inside the particles file (same dimension and spacing)")
+      ->type_name("FILE");
+  app.add_option("--set", o.overrides, "Override a key of the case, e.g. --set soil.friction_angle=25; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--backend", o.backend, "Where to run; auto: a CUDA device where there is one")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}));
+  app.add_option("--threads", o.threads, "OpenMP threads; 0: all")->type_name("NUMBER")->check(CLI::Range(0, 1024));
+  app.add_flag("--resume", o.resume, "Go on from the checkpoint beside the output");
+  app.add_flag("--dry-run", o.dry_run, "Print particle counts, time step, steps and run time as JSON; start nothing");
+  app.add_option("--rate", o.rate, "Particle-steps a second that --dry-run assumes")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--summary", o.summary, "Summary as JSON")->type_name("FILE");
+  app.add_option("--diagnostics", o.diagnostics,
+                 "Table of energies, momentum, speeds and time steps against time (CSV; - is stdout)")
+      ->type_name("FILE");
+  app.add_option("--xmf", o.xmf, "Xdmf sidecar of the run for ParaView before 5.12")->type_name("FILE");
   std::string cuda;
   add_common_options(app, o.common, std::string("CUDA backend: ") + (cuda_available(&cuda) ? "yes" : cuda));
   app.footer(
-      "Example: lgiw-run out/particles.h5 -o out/run.h5 --summary out/run.json --diagnostics out/diagnostics.csv\n"
-      "On a CPU the widest vector instructions are used; LGIW_INSTRUCTIONS=baseline, avx2 or avx512 chooses others.");
+      "Environment:\n  LGIW_INSTRUCTIONS           Vector instructions of the CPU: baseline, avx2 or avx512; otherwise "
+      "the widest\n\n"
+      "Examples:\n  $ lgiw-run particles.h5 --dry-run\n"
+      "  $ lgiw-run particles.h5 -o run.h5 --summary run.json --diagnostics diagnostics.csv\n"
+      "  $ lgiw-run particles.h5 -o run.h5 --resume");
   return tool_main(app, argc, argv, [&] { return run(o, argc, argv); });
 }
