@@ -32,18 +32,22 @@ namespace {
 
 /// A case may come from a stranger: the files that it names are files; they open no connection and start no program.
 void register_drivers() {
-  GDALAllRegister();
-  GDALDriverManager* manager = GetGDALDriverManager();
+  // By configuration, so that a later GDALAllRegister() does not bring them back.
+  std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
+  for (char& c : skipped) c = c == ' ' ? ',' : c;
   for (const char* name :
-       {"AmigoCloud", "Carto",      "CSW",    "DAAS",      "EEDA",         "EEDAI",    "Elasticsearch", "GeoRaster",
-        "GMLAS",      "GPSBabel",   "HTTP",   "MongoDBv3", "MSSQLSpatial", "MySQL",    "NGW",           "OAPIF",
-        "OCI",        "ODBC",       "OGCAPI", "OGR_OGDI",  "PGeo",         "PLMOSAIC", "PLSCENES",      "PostGISRaster",
-        "PostgreSQL", "Rasterlite", "STACIT", "STACTA",    "WCS",          "WFS",      "WMS",           "WMTS"})
-    if (GDALDriver* driver = manager->GetDriverByName(name)) manager->DeregisterDriver(driver);
+       {"AmigoCloud", "Carto",    "CSW",           "DAAS",       "EEDA",         "EEDAI",     "Elasticsearch",
+        "GMLAS",      "GPSBabel", "HTTP",          "GeoRaster",  "MSSQLSpatial", "MongoDBv3", "MySQL",
+        "NGW",        "OAPIF",    "OCI",           "ODBC",       "OGCAPI",       "OGR_OGDI",  "PGeo",
+        "PLMOSAIC",   "PLSCENES", "PostGISRaster", "PostgreSQL", "Rasterlite",   "STACIT",    "STACTA",
+        "WCS",        "WFS",      "WMS",           "WMTS"})
+    skipped.append(skipped.empty() ? "" : ",").append(name);
+  CPLSetConfigOption("GDAL_SKIP", skipped.c_str());
   // The only name that /vsicurl/ and its like would open.
   CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
   // What drivers fetch for themselves, such as schemas, has to go through this.
   CPLSetConfigOption("GDAL_HTTP_PROXY", "none://none");
+  GDALAllRegister();
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <ogr_spatialref.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -47,8 +46,7 @@ void write_raster(const std::string& path, fuzz::Script& script) {
   for (int row = 0; row < ny; ++row)
     for (int column = 0; column < nx; ++column)
       values.push_back(height(script, 20.0 * column - 10.0 * nx, 20.0 * row - 10.0 * ny));
-  if (band->RasterIO(GF_Write, 0, 0, nx, ny, values.data(), nx, ny, GDT_Float64, 0, 0, nullptr) != CE_None)
-    std::abort();
+  if (band->RasterIO(GF_Write, 0, 0, nx, ny, values.data(), nx, ny, GDT_Float64, 0, 0, nullptr) != CE_None) return;
 }
 
 }  // namespace
