@@ -32,7 +32,9 @@ namespace {
 
 /// A case may come from a stranger: the files that it names are files; they open no connection and start no program.
 void register_drivers() {
-  // By configuration, so that a later GDALAllRegister() does not bring them back.
+  GDALAllRegister();
+  // By configuration, so that a later GDALAllRegister() does not bring them back; it would warn of those that are not
+  // there.
   std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
   for (char& c : skipped) c = c == ' ' ? ',' : c;
   for (const char* name :
@@ -41,7 +43,7 @@ void register_drivers() {
         "NGW",        "OAPIF",    "OCI",           "ODBC",       "OGCAPI",       "OGR_OGDI",  "PGeo",
         "PLMOSAIC",   "PLSCENES", "PostGISRaster", "PostgreSQL", "Rasterlite",   "STACIT",    "STACTA",
         "WCS",        "WFS",      "WMS",           "WMTS"})
-    skipped.append(skipped.empty() ? "" : ",").append(name);
+    if (GDALGetDriverByName(name)) skipped.append(skipped.empty() ? "" : ",").append(name);
   CPLSetConfigOption("GDAL_SKIP", skipped.c_str());
   // The only name that /vsicurl/ and its like would open.
   CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");

@@ -387,7 +387,7 @@ TEST_F(MeasuringTools, HelpAndVersion) {
   for (const std::string tool : {"gauges", "deposit-volume", "convergence"}) {
     const Outcome help = shop.run(tool + " --help");
     EXPECT_EQ(help.status, 0);
-    EXPECT_NE(help.out.find("Example:\n  " + tool + " "), std::string::npos);
+    EXPECT_NE(help.out.find("Examples:\n  $ " + tool + " "), std::string::npos);
     const Outcome version = shop.run(tool + " --version");
     EXPECT_EQ(version.status, 0);
     EXPECT_EQ(version.out.rfind(tool + " 0.1.0", 0), 0u);
