@@ -27,6 +27,9 @@ struct ColumnParticles {
   std::array<double, 2> wall_high{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 
+/// Those of a frame, between the sides of the domain that are walls. Refers to the frame.
+ColumnParticles column_particles(const ParticleHeader& header, const Frame& frame);
+
 struct ColumnSurfaces {
   std::vector<float> water;       // elevation, NaN where dry
   std::vector<float> soil;        // elevation, NaN where there is no soil; empty without soil

@@ -368,8 +368,7 @@ class Runner {
 
   void give_up(const StepState& st) {
     const bool water = st.failed_water != UINT32_MAX;
-    writer_->write_maxima(maxima_);
-    writer_->flush();
+    flush();
     ParticleState s;
     simulation_->download(s);
     const uint32_t id = water ? st.failed_water : st.failed_soil;
@@ -414,16 +413,7 @@ class Runner {
     frame.lost.insert(frame.lost.end(), s.soil_lost.begin(), s.soil_lost.end());
     const std::size_t nw = s.water_x.size() / 3, ns = s.soil_x.size() / 3;
 
-    ColumnParticles columns;
-    columns.dimension = header_.dimension, columns.dp = header_.dp, columns.h = 1.5 * header_.dp;
-    columns.n_water = nw, columns.n_soil = ns;
-    columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
-    for (int side = 0; side < 4; ++side) {
-      if (header_.sides[side] == Side::open || (side >= 2 && header_.dimension == 2)) continue;
-      (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] =
-          side % 2 ? header_.high[side / 2] : header_.low[side / 2];
-    }
-    const ColumnSurfaces surfaces = surface_map_(columns);
+    const ColumnSurfaces surfaces = surface_map_(column_particles(header_, frame));
     writer_->add_surface(st.time, nw ? surfaces.water : std::vector<float>{}, surfaces.soil,
                          water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
@@ -461,8 +451,7 @@ class Runner {
     };
     const double error = value("density_error_p999");
     if (!(error > stop_at::density_error)) return;
-    writer_->write_maxima(maxima_);
-    writer_->flush();
+    flush();
     std::ostringstream what, why, then;
     what.precision(3), why.precision(3), then.precision(3);
     what << "the water is compressed by " << 100 * error << " % at t = " << time << " s";
@@ -522,9 +511,14 @@ class Runner {
     if (soil) raise("soil_speed", s.soil_speed);
   }
 
-  void checkpoint() {
+  /// What has been recorded can be read from here on, whatever comes.
+  void flush() {
     writer_->write_maxima(maxima_);
     writer_->flush();
+  }
+
+  void checkpoint() {
+    flush();
     write_checkpoint(checkpoint_path(options_.output), present());
   }
 

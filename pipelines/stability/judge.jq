@@ -4,7 +4,7 @@
 def number: try tonumber catch null;
 def rows: $rows | split("\n") | map(select(. != "") | split(",")) | .[0] as $names
   | .[1:] | map([$names, map(number)] | transpose | map({key: .[0], value: .[1]}) | from_entries);
-def size($d): if fabs >= 0.01 then . * 1000 | round / 1000 else . end | tostring;
+def size: if fabs >= 0.01 then . * 1000 | round / 1000 else . end | tostring;
 $point[0] as $p | $run[0] as $r | ($error | split("\n") | map(select(. != ""))) as $lines
 # What must hold, each {name, value, limit}; value null: the scene has none of it.
 | (if $r == null then [] else
@@ -33,7 +33,7 @@ $point[0] as $p | $run[0] as $r | ($error | split("\n") | map(select(. != ""))) 
    elif $status == 1 then {outcome: "stopped", pass: false, criterion: "finite"}
    elif $status != 0 or $r == null then {outcome: "crashed", pass: false, criterion: "exit status \($status)"}
    elif $p.expect == "refused" then {outcome: "ran", pass: false, criterion: "not refused"}
-   elif $broken then {outcome: "ran", pass: false, criterion: "\($broken.name) \($broken.value | size(3))"}
+   elif $broken then {outcome: "ran", pass: false, criterion: "\($broken.name) \($broken.value | size)"}
    else {outcome: "ran", pass: true, criterion: "all"} end)
 + ($p | {id, axis, value, scene, variant, dimension, expect}) + {
   particle_spacing_m: $p.case.particle_spacing,

@@ -26,14 +26,6 @@ std::vector<std::string> time_names(const RunReader& run, const std::vector<std:
   return names;
 }
 
-ColumnParticles columns_of(const Frame& frame, const ParticleHeader& header) {
-  ColumnParticles columns;
-  columns.dimension = header.dimension, columns.dp = header.dp, columns.h = 1.5 * header.dp;
-  columns.n_water = header.counts.water, columns.n_soil = header.counts.soil;
-  columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
-  return columns;
-}
-
 std::string wave_file(const std::string& folder, const std::string& time) { return folder + "/wave_" + time + ".tif"; }
 std::string speed_file(const std::string& folder, const std::string& time) {
   return folder + "/slide_speed_" + time + ".tif";
@@ -62,7 +54,7 @@ void write_snapshots(const std::string& folder, const RunReader& run, const std:
   ColumnSurfaceMap surfaces_of(header.map, particles.bed);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const Frame frame = run.frame(frames[k]);
-    const ColumnSurfaces surfaces = surfaces_of(columns_of(frame, particles));
+    const ColumnSurfaces surfaces = surfaces_of(column_particles(particles, frame));
     const std::string at = text_of(" at %.2f s", frame.time);
     std::vector<float> height = surfaces.water;
     for (float& z : height) z = float(z - particles.still_water_level);
