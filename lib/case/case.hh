@@ -159,7 +159,7 @@ struct Numerics {
   KernelName kernel = KernelName::wendland;
   double h_over_dp = 1.5;
   Integrator integrator = Integrator::leapfrog;
-  double cfl = 0.4;
+  double cfl = 0.6;
   int retakes = 3;             // of a stretch whose last step failed, each with half the time step of the one before
   bool return_mapping = true;  // false: rate form, Eqs. (8)-(9)
   bool wall_viscosity = true;  // Pi_ib of physics.md section 8
@@ -174,7 +174,7 @@ struct Numerics {
 struct Output {
   double end_time = 60;              // s
   double frame_interval = 1;         // s, particle frames
-  double surface_interval = 0;       // s, surface rasters and maxima; 0: a tenth of the frame interval
+  double surface_interval = 0;       // s, surface rasters and maxima; 0: 0.3 sqrt(dp / g)
   double map_spacing = 0;            // m, cell of the surface rasters; 0: dp
   double arrival_threshold = 0;      // m; 0: a quarter of dp
   double checkpoint_interval = 600;  // s of wall-clock time

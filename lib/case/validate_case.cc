@@ -314,7 +314,7 @@ class Validator {
               "lengthen frame_interval");
     refuse_if(o.surface_interval > o.end_time, "output.surface_interval",
               "output.surface_interval is longer than the run", "output.end_time is " + number_text(o.end_time) + " s",
-              "leave it out for a tenth of frame_interval");
+              "leave it out for 0.3 sqrt(particle_spacing / g)");
   }
 
   void check_gauges() const {

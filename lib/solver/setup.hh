@@ -25,7 +25,7 @@ struct ModelParameters {
   double water_depth = 0, soil_height = 0;     // m: the deepest water and the highest column of soil at the start
   bool cubic_kernel = false;
   bool verlet = false;
-  double cfl = 0.4;
+  double cfl = 0.6;
   // Water.
   double water_density = 1000, sound_speed = 0, water_alpha = 0, density_diffusion = 0;
   bool water_slips = true;  // along walls

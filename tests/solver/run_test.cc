@@ -144,7 +144,7 @@ TEST_F(Run, SummaryHasWhatTheRunKnows) {
   EXPECT_EQ(s.at("scheme"), "lgiw");
   EXPECT_EQ(s.at("precision"), "mixed");
   EXPECT_EQ(s.at("integrator"), "leapfrog");
-  EXPECT_EQ(s.at("cfl"), 0.4);
+  EXPECT_EQ(s.at("cfl"), 0.6);
   EXPECT_EQ(s.at("device"), "CPU");
   EXPECT_FALSE(std::string(s.at("version")).empty());
   EXPECT_GT(s.at("peak_memory_bytes"), s.at("bytes"));
@@ -354,6 +354,17 @@ TEST_F(Run, NothingSeepsThroughTheWallsOfATank) {
     const auto below = RunReader((*shop / "tank-run.h5").string()).diagnostics().at("below_bed");
     EXPECT_EQ(*std::max_element(below.begin(), below.end()), 0) << walls;
   }
+}
+
+// 0.3 sqrt(dp / g) = 0.01354 s, of which 7 make a frame interval nearly.
+TEST_F(Run, SurfacesAreTakenAsOftenAsTheSpacingResolves) {
+  particles("slide");
+  ASSERT_EQ(shop->run("lgiw-run slide.h5 -o often.h5" + quiet + "--set output.surface_interval=auto").status, 0);
+  const RunReader run((*shop / "often.h5").string());
+  const std::vector<double> times = run.surface_times();
+  ASSERT_EQ(times.size(), 29u);
+  for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], 0.1 / 7 * double(k), 0.001);
+  for (std::size_t k = 0; k < run.frame_count(); ++k) EXPECT_EQ(run.frame_time(k), times[7 * k]);
 }
 
 TEST_F(Run, DivergenceNamesParticlePlaceAndLastGoodState) {
