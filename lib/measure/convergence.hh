@@ -17,9 +17,10 @@ struct SpacingResult {
 /// solution of (f3-f2)/(f2-f1) = r21^p (r32^p - 1) / (r21^p - 1) (Celik et al., J. Fluids Eng. 130, 2008).
 /// Grid convergence index GCI = 1.25 |f2-f1| / |f1| / (r21^p - 1) (Roache 1994) and Richardson's value
 /// f1 + (f1-f2) / (r21^p - 1). They mean something only where the results converge: with fewer than three of them, with
-/// (f3-f2)(f2-f1) <= 0, or with p outside of 0 to 2, the spread, largest minus smallest of those used, stands instead.
+/// (f3-f2)(f2-f1) <= 0, or with p outside of 0.5 to 2, the spread, largest minus smallest of those used, stands
+/// instead.
 struct Convergence {
-  double order = 0, richardson = 0;  // NaN where there is none; the order also where it is above 2
+  double order = 0, richardson = 0;  // NaN where there is none; the order stands also where it is not trusted
   double gci = 0, spread = 0;        // over |f1|; NaN for f1 = 0, the GCI also where the spread is used
   double error = 0;                  // in the unit of f: GCI |f1| or the spread; NaN for fewer than two results
   bool use_gci = false;

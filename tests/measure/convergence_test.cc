@@ -46,6 +46,12 @@ TEST(Convergence, IsASpreadWhereTheResultsDoNotConverge) {
   EXPECT_NEAR(fast.order, 3, 1e-9);
   EXPECT_DOUBLE_EQ(fast.error, 9);
 
+  const Convergence slow = convergence_of({{1, 10}, {2, 11}, {4, 12.3}});  // 1.3 = 2^0.38
+  EXPECT_FALSE(slow.use_gci);
+  EXPECT_EQ(slow.why, "order below 0.5");
+  EXPECT_NEAR(slow.order, 0.3785, 1e-4);
+  EXPECT_NEAR(slow.error, 2.3, 1e-12);
+
   EXPECT_EQ(convergence_of({{1, 10}, {2, 12}, {4, 13}}).why, "the changes do not shrink");
   EXPECT_EQ(convergence_of({{1, 10}, {2, 12}, {4, 14}}).why, "the changes do not shrink");  // order 0
   EXPECT_EQ(convergence_of({{1, 10}, {2, 10}, {4, 14}}).why, "no change between two runs");
