@@ -180,7 +180,7 @@ YamlDocument::YamlDocument(const std::string& text, const std::string& name, con
 }
 
 void YamlDocument::apply(const Override& given) {
-  const auto& [override_text, place] = given;
+  const std::string &override_text = given.text, &place = given.place;
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos || equals == 0)
     refuse(place, "not an override", "key and value are joined by =", "write --set key.sub=value");
