@@ -4,6 +4,7 @@
 #                                  resumption: out/robustness.json and .txt. COUNTS as below; ROBUSTNESS_TESTS names some.
 #   make -C pipelines fuzz         every reader of ours, MINUTES (60) each, under ASan and UBSan; needs clang
 #   make -C pipelines sanitize     the quick suite under ASan and UBSan; SANITIZE_TESTS=REGEX takes some
+#   make -C pipelines races        every pass of the CPU solver on two threads under ThreadSanitizer; needs clang and libomp
 #   make -C pipelines lint         static analysis: cppcheck
 #
 # docs/robustness.md has what they gave, and what each one means.
@@ -20,7 +21,7 @@ robustness := $(root)/tests/robustness
 # In memory where there is room: a disk that must be waited for at every call takes most of the time.
 robustness_work := $(or $(wildcard /dev/shm),$(here)/out/.work)/lgiw-robustness
 
-.PHONY: robustness fuzz sanitize lint
+.PHONY: robustness fuzz sanitize races lint
 robustness: $(tools)
 	@mkdir -p $(here)/out
 	@failed=0; $(foreach test,$(ROBUSTNESS_TESTS),\
@@ -40,6 +41,10 @@ SANITIZE_TESTS ?= .
 sanitize:
 	cd $(root) && cmake --preset asan && cmake --build --preset asan
 	cd $(root)/build/asan && ctest --output-on-failure -E 'Robustness' -R '$(SANITIZE_TESTS)'
+
+races:
+	cd $(root) && cmake --preset tsan && cmake --build --preset tsan
+	$(root)/tests/robustness/race-test $(root)/build/tsan/bin $(robustness_work)/race-test
 
 lint:
 	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \

@@ -24,7 +24,7 @@ constexpr InstructionSet instruction_sets[] = {{"baseline", 4}, {"avx2", 8}, {"a
 /// Both the build and the processor have the instructions.
 bool possible(int lanes) {
   bool able = lanes == 4;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__clang__)  // clang has no #pragma GCC target: there is the baseline alone
   if (lanes == 16) able = __builtin_cpu_supports("x86-64-v4");
   if (lanes == 8) able = __builtin_cpu_supports("x86-64-v3");
 #endif
