@@ -8,6 +8,7 @@ TEST(Estimate, ByHand) {
   Case c;
   c.dimension = 2;
   c.dp = 0.01;
+  c.numerics.cfl = 0.4;
   c.water.present = true;
   c.output.end_time = 2;
   const ParticleCounts counts{1000, 0, 500, 0};
@@ -22,6 +23,7 @@ TEST(Estimate, ByHand) {
 TEST(Estimate, TheSoilsWaveSpeedCounts) {
   Case c;
   c.dp = 0.01;
+  c.numerics.cfl = 0.4;
   c.slide.present = true;
   c.soil.young_modulus = 1e6, c.soil.poisson_ratio = 0.3, c.soil.density = 2000;
   // K = 833333, G = 384615: sqrt((K + 4/3 G)/rho) = sqrt(1346154/2000) = 25.944 m/s
