@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "bowl.hh"
 #include "tool_runner.hh"
@@ -141,7 +142,10 @@ TEST_F(Sweep, GathersItsRunsMarksWhatFailsAndRerunsWhatAnEditTouches) {
 
 TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
   write_bytes(shop / "bowl/case.yaml", replaced(bowl_case, "end_time: 1", "end_time: 0.5"));
-  write_bytes(shop / "bowl/sweep.yaml", "runs: [{name: low}, {name: high, water.level: 120}]\n");
+  const std::string own = "[[500180, 3699940], [500260, 3699940], [500260, 3700060], [500180, 3700060]]",
+                    larger = "[[500180, 3699920], [500260, 3699920], [500260, 3700080], [500180, 3700080]]";
+  write_bytes(shop / "bowl/sweep.yaml",
+              "runs:\n  - {name: low}\n  - {name: high, water.level: 120, slide.polygon: " + larger + "}\n");
   const Outcome list = make("sweep-list");
   ASSERT_EQ(list.status, 0) << list.err;
   EXPECT_NE(list.out.find("1\tlow\n2\thigh\n"), std::string::npos) << list.out;
@@ -164,6 +168,22 @@ TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
   EXPECT_TRUE(sweep()["runs"][1]["max_height_m"].is_number());
 }
 
+
+  // A polygon goes by its number in the table and in the figure, and is told once; other tools find it in full.
+  const std::string text = read_bytes(shop / "out/sweep/sweep.txt"), csv = read_bytes(shop / "out/sweep/sweep.csv");
+  EXPECT_TRUE(std::regex_search(text, std::regex("run +water.level +slide.polygon +G1 "))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("  low +110 +#1 "))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("  high +120 +#2 "))) << text;
+  EXPECT_NE(text.find("\n  slide.polygon #1: " + own + "\n  slide.polygon #2: " + larger + "\n"), std::string::npos)
+      << text;
+  EXPECT_NE(csv.find("\"" + larger + "\",\"done\""), std::string::npos) << csv;
+  std::istringstream points(read_bytes(shop / "out/sweep/.work/points.csv"));
+  std::set<std::string> labels;
+  for (std::string row; std::getline(points, row);) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 4) << row;
+    if (row.rfind("slide.polygon,", 0) == 0) labels.insert(row.substr(row.find('#'), row.rfind(',') - row.find('#')));
+  }
+  EXPECT_EQ(labels, (std::set<std::string>{"#1", "#2"}));
 TEST_F(Sweep, FaultsAreToldInOneLineBeforeAnyRun) {
   const Outcome none = make("sweep");
   EXPECT_EQ(none.status, 2);
