@@ -86,9 +86,9 @@ report_figures := $(addprefix $(out)/,$(if $(maps),wave-map.png hazard-map.png s
 $(work)/pictures.json: $(report)/embed $(report_figures) | $(work)
 	@$^ > $@
 
-# What the case says of itself, where it says that it is invented.
-$(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/README.md $(case_dir)/terrain/README.md) | $(work)
-	@awk -f $^ > $@
+# What the case says of itself, where it says that it is invented. A map of the user's own is not the case's invention.
+$(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/README.md $(if $(strip $(TERRAIN)),,$(case_dir)/terrain/README.md)) | $(work)
+	@awk $(if $(strip $(TERRAIN)),-v terrain=replaced) -f $^ > $@
 
 report_data := $(out)/summary.json $(addprefix $(work)/,run-attributes.json particles-attributes.json plan.json pictures.json \
   $(if $(maps),shores.json zones.json))

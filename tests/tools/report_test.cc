@@ -170,3 +170,32 @@ TEST_F(Report, OfAFlumeHasNoMaps) {
 
 }  // namespace
 }  // namespace lgiw::test
+TEST_F(Report, DoesNotCallAMapOfTheUsersOwnInvented) {
+  write_case(
+      "# The terrain is synthetic, and the soil assumed (README.md): what comes out is none of a real site.\n#\n" +
+      replaced(bowl_case, "slide:", "slide:  # An invented slide in a valley."));
+  write_bytes(shop / "scene/README.md",
+              "# A synthetic gorge: a bowl\n\nThe lake is **hypothetical**, its\nbed invented.\n");
+  fs::create_directory(shop / "scene/terrain");
+  write_bytes(shop / "scene/terrain/README.md", "Heights are invented.\n");
+  write_bytes(shop / "own.asc", ascii_grid());
+  const auto told = [&](const std::string& map) {
+    const std::string out = (shop / "out").string(),
+                      file = out + (map.empty() ? "" : "/on-own") + "/.work/invented.txt";
+    const Outcome outcome = shop.run("env -u MAKEFLAGS -u MAKELEVEL -u called_from make -C '" LGIW_SOURCE_DIR
+                                     "/pipelines' BIN='" LGIW_BIN_DIR "' CASE_DIR='" +
+                                     (shop / "scene").string() + "' OUT='" + out + "' " + map + " '" + file + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read_bytes(file);
+  };
+  const std::string slide = "An invented slide in a valley.\n", lake = "The lake is hypothetical, its bed invented.\n",
+                    all =
+                        "The terrain is synthetic, and the soil assumed (README.md): what comes out is none of a real "
+                        "site.\n" +
+                        slide + "A synthetic gorge: a bowl.\n" + lake + "Heights are invented.\n";
+  EXPECT_EQ(told(""), all);
+  EXPECT_EQ(told("TERRAIN=own.asc"), slide + lake) << "the slide and the lake are still the case's";
+  fs::remove_all(shop / "out");
+  EXPECT_EQ(told("SITE=own.asc"), all) << "around the site the terrain is the case's";
+}
+
