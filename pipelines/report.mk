@@ -34,10 +34,9 @@ $(work)/arrival-median.tif: $(out)/arrival.tif | $(work)
 	@gdalwarp -q -overwrite -srcnodata nan -dstnodata 1e9 $< $(work)/arrival-late.tif
 	@gdalwarp -q -overwrite -r med -tr $(call cell,$<,5) $(call cell,$<,5) -srcnodata None -dstnodata None $(work)/arrival-late.tif $@
 
-$(work)/isochrones.geojson: $(work)/arrival-median.tif $(report)/arrival.awk $(work)/wave.styled
-	@gdal_translate -q -of XYZ $< /vsistdout/ | awk -v none=1e9 -f $(report)/arrival.awk > $(work)/arrival-wave.xyz
+$(work)/isochrones.geojson: $(work)/arrival-median.tif $(work)/wave.styled
 	@gdalwarp -q -overwrite -ot Float32 -r bilinear -tr $(call cell,$(out)/arrival.tif,1) $(call cell,$(out)/arrival.tif,1) -srcnodata 1e9 -dstnodata nan \
-	  $(work)/arrival-wave.xyz $(work)/arrival-smooth.tif
+	  $< $(work)/arrival-smooth.tif
 	@rm -f $(work)/contours.gpkg
 	@latest=$$($(call range,$(work)/arrival-smooth.tif) | jq '.bands[0].computedMax // 1'); \
 	gdal_contour -q -f GPKG -a value -i $$(jq -n "$$latest / 8 | . as \$$s | pow(10; log10 | floor) as \$$p | [1, 2, 5, 10] | map(select(. * \$$p >= \$$s))[0] * \$$p") \
