@@ -74,7 +74,7 @@ $(out)/energy.png: $(out)/diagnostics.csv
 # --- The page -------------------------------------------------------------------------------------------------------------
 # HDF5 attributes by GDAL: the text of the case as it was run, the provenance of particles and run.
 $(work)/run-attributes.json: $(out)/run.h5 | $(work)
-	@gdalinfo -json $< | jq '.metadata[""] | {case_text: .lgiw_Case, vertical_datum: .lgiw_VerticalDatum, crs: .lgiw_CRS, provenance: .lgiw_Provenance}' > $@
+	@gdalinfo -json $< | jq '.metadata[""] | {case_text: .lgiw_Case, vertical_datum: .lgiw_VerticalDatum, attribution: .lgiw_Attribution, crs: .lgiw_CRS, provenance: .lgiw_Provenance}' > $@
 $(work)/particles-attributes.json: $(out)/particles.h5 | $(work)
 	@gdalinfo -json $< | jq '.metadata[""] | {provenance: .lgiw_Provenance}' > $@
 $(work)/plan.json: $(out)/particles.h5 $(lgiw_run) | $(work)

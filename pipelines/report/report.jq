@@ -79,6 +79,7 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
 "<div class=\"answer\">",
 ([ (if $wave then "The largest wave at the gauges is \($wave.max_height_m | m)\(range_of("max_wave_height_m"; $wave.max_height_m; m)) above still level, at \($wave.name) (\($wave | where)), \($wave.time_of_max_s | with_unit("s")) after the start." else empty end),
    (if $zones.lake_maximum? then "In the lake as a whole the surface rises by up to \($zones.lake_maximum.height_m | m) (\($zones.lake_maximum | where))." else empty end),
+| (($run.attribution // "") | if . == "" then "" else " Terrain: \(.)." end) as $credit
    (if $shores and ($shores | length) > 0 then "Run-up is highest on shore \($shores[0].shore): \($shores[0].runup_m | m) above still level, to \($shores[0].elevation_m | elevation) m (\($shores[0] | where))." else empty end),
    (if $section then "On the bank opposite the slide, along section \($section.name), run-up is \($section.runup_m | m)\(range_of("runup_m"; $section.runup_m; m))." else empty end),
    (if $zones then if ($zones.hazard_area_m2.land | add) == 0 then "No land is flooded." else "\($zones.hazard_area_m2.land | add / 1e4 | amount) ha of land are flooded, \($zones.hazard_area_m2.land[2] / 1e4 | amount) ha of it more than 3 m deep." end else empty end),
@@ -90,10 +91,10 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
 "</div>",
 
 section("Wave";
-  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds\($ARGS.named.threshold | if . == "" then "" else " (a change of the surface by \(.) m)" end), shoreline at rest and limit of inundation. Isochrones are smoothed by medians of 5 x 5 cells.")),
+  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds\($ARGS.named.threshold | if . == "" then "" else " (a change of the surface by \(.) m)" end), shoreline at rest and limit of inundation. Isochrones are smoothed by medians of 5 x 5 cells.\($credit)")),
 
 section("Hazard classes";
-  figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest."),
+  figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest.\($credit)"),
   (if $zones then table("Areas by class (ha)"; ["", "below 1 m", "1 m to 3 m", "above 3 m"];
      ["land, by largest flow depth", ($zones.hazard_area_m2.land[] / 1e4 | amount)], ["lake at rest, by largest wave height", ($zones.hazard_area_m2.lake[] / 1e4 | amount)]) else empty end)),
 
@@ -129,7 +130,7 @@ section("Slide";
      ["deposit above still level", ($s.deposit.height_above_water_m? | amount), "m"])
     | select(.[1] != "-")) end),
   figure("volumes"; "Volume of the slide, volume that entered the water, and speeds."),
-  figure("deposit-map"; "Thickness of the slide at the end of the run."),
+  figure("deposit-map"; "Thickness of the slide at the end of the run.\($credit)"),
   figure("slices"; "Particles in a slice along the first section at several times: plastic strain of the soil, speed of the water."),
   figure("sections"; "Sections: ground before the slide, bed, soil and water at several times.")),
 
@@ -175,3 +176,4 @@ section("Left out";
    else "No part of the model was left out." | paragraph end),
   (if ($s.particles.left_out // 0) > 0 then "\($s.particles.left_out | thousands) wall particles that nothing can reach were left out." | paragraph else empty end)),
 "</body>", "</html>"
+       (if $credit == "" then empty else ["terrain", $run.attribution] end),

@@ -90,15 +90,18 @@ class Report : public testing::Test {
 };
 
 TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
-  write_case(
-      "# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
-      replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20", "friction_angle: 5"));
+  write_case("# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
+             replaced(replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20",
+                               "friction_angle: 5"),
+                      "- file: dem.asc", "- {file: dem.asc, attribution: \"Survey <b> & Co, CC BY 4.0\"}"));
   make("THRESHOLDS=1");
   EXPECT_EQ(headings(), (std::set<std::string>{"Wave", "Hazard classes", "Run-up", "Gauges", "Slide",
                                                "How far to trust these numbers", "Empirical cross-check", "Provenance",
                                                "Left out"}));
   EXPECT_TRUE(has("<strong>Not an assessment of a real site.</strong>"));
   EXPECT_TRUE(has("&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;"));
+  EXPECT_TRUE(has("smoothed by medians of 5 x 5 cells. Terrain: Survey &lt;b&gt; &amp; Co, CC BY 4.0.</figcaption>"));
+  EXPECT_TRUE(has("<td>terrain</td><td>Survey &lt;b&gt; &amp; Co, CC BY 4.0</td>"));
   const json gauges = result("gauges.json"), slide = result("slide.json");
   const auto cell = [&](double value) { return has("<td class=\"number\">" + printed(value) + "</td>"); };
   EXPECT_TRUE(cell(gauges["gauges"][0]["max_height_m"])) << gauges["gauges"][0];

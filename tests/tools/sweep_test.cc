@@ -17,7 +17,8 @@ class Sweep : public testing::Test {
  protected:
   Sweep() {
     fs::create_directories(shop / "bowl");
-    write_bytes(shop / "bowl/case.yaml", replaced(bowl_case, "end_time: 1", "end_time: 2"));
+    write_bytes(shop / "bowl/case.yaml", replaced(replaced(bowl_case, "end_time: 1", "end_time: 2"), "- file: dem.asc",
+                                                  "- {file: dem.asc, attribution: Survey office}"));
     write_bytes(shop / "bowl/dem.asc", ascii_grid());
   }
   Outcome make(const std::string& goals) {
@@ -99,6 +100,7 @@ TEST_F(Sweep, GathersItsRunsMarksWhatFailsAndRerunsWhatAnEditTouches) {
   const json info = json::parse(shop.run("gdalinfo -json out/sweep/share_above_1m.tif").out);
   EXPECT_NE(info["coordinateSystem"]["wkt"].get<std::string>().find("32611"), std::string::npos);
   EXPECT_EQ(info["metadata"]["IMAGE_STRUCTURE"]["LAYOUT"], "COG");
+  EXPECT_EQ(info["metadata"][""]["TIFFTAG_COPYRIGHT"], "Survey office");
   EXPECT_NE(info["bands"][0]["description"].get<std::string>().find("share of 2 runs"), std::string::npos);
   EXPECT_EQ(json::parse(shop.run("gdalinfo -json out/sweep/envelope_height.tif").out)["bands"][0]["unit"], "m");
   for (const char* style :
@@ -166,8 +168,6 @@ TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
   EXPECT_EQ(gathered.status, 0) << gathered.err << gathered.out;
   EXPECT_EQ(sweep()["runs"][1]["threads"], 1);
   EXPECT_TRUE(sweep()["runs"][1]["max_height_m"].is_number());
-}
-
 
   // A polygon goes by its number in the table and in the figure, and is told once; other tools find it in full.
   const std::string text = read_bytes(shop / "out/sweep/sweep.txt"), csv = read_bytes(shop / "out/sweep/sweep.csv");
@@ -184,6 +184,8 @@ TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
     if (row.rfind("slide.polygon,", 0) == 0) labels.insert(row.substr(row.find('#'), row.rfind(',') - row.find('#')));
   }
   EXPECT_EQ(labels, (std::set<std::string>{"#1", "#2"}));
+}
+
 TEST_F(Sweep, FaultsAreToldInOneLineBeforeAnyRun) {
   const Outcome none = make("sweep");
   EXPECT_EQ(none.status, 2);
