@@ -113,6 +113,32 @@ TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
   EXPECT_TRUE(has(provenance["inputs"][0]["sha256"].get<std::string>()));
   EXPECT_TRUE(has("dem2particles " + provenance["version"].get<std::string>()));
 
+  // A row a formula and quantity in sight, each place and each limit folded away, and nothing lost.
+  const json places = result("impulse.json")["impulse_wave"]["places"];
+  std::set<std::string> families;
+  std::size_t estimates = 0;
+  for (const json& place : places)
+    for (const json& e : place["estimates"]) {
+      families.insert(e["quantity"].get<std::string>() + e["formula"].get<std::string>());
+      EXPECT_TRUE(cell(e["predicted"])) << e;
+      ++estimates;
+    }
+  ASSERT_GT(families.size(), 4u);
+  const std::size_t check = page.find("<h2>Empirical cross-check</h2>"), fold = page.find("<details>", check),
+                    end = page.find("</section>", check);
+  const auto rows = [&](const std::string& start, std::size_t from, std::size_t to) {
+    std::size_t count = 0;
+    for (std::size_t at = page.find(start, from); at < to; at = page.find(start, at + 1)) ++count;
+    return count;
+  };
+  ASSERT_LT(fold, end);
+  EXPECT_EQ(rows("<tr><td>", check, fold), families.size());
+  const std::size_t each = page.find("<summary>Each formula at each place</summary>", fold);
+  EXPECT_EQ(rows("<tr><td>", each, page.find("</details>", each)), estimates);
+  EXPECT_EQ(rows("<td>Mohammed-Fritz*</td>", check, fold), 1u);
+  EXPECT_NE(page.find("<td>not known</td>", check), std::string::npos)
+      << "Mohammed-Fritz has no limits, and is not within any";
+
   // Names that a case may not have but --gauge may.
   const std::string out = (shop / "out").string();
   const std::string gauge = "gauges " + out + "/run.h5 -q -O --gauge '<b>&,500000,3700000' --summary " + out +
@@ -161,18 +187,6 @@ TEST_F(Report, WithoutSlideGaugesAndSectionsLeavesThemOut) {
   EXPECT_FALSE(has("Not an assessment"));
 }
 
-TEST_F(Report, OfAFlumeHasNoMaps) {
-  write_case(
-      "name: flume\ndimension: 2\nparticle_spacing: 0.01\nterrain: {profile: [[-0.3, 0.3], [0, 0], [0.5, 0]]}\n"
-      "water: {level: 0.1}\noutput: {end_time: 0.05, frame_interval: 0.05}\ngauges:\n  - {name: far, x: 0.3}\n");
-  make();
-  const std::set<std::string> found = headings();
-  EXPECT_FALSE(found.count("Wave") || found.count("Hazard classes") || found.count("Slide"));
-  EXPECT_TRUE(found.count("How far to trust these numbers"));
-}
-
-}  // namespace
-}  // namespace lgiw::test
 TEST_F(Report, DoesNotCallAMapOfTheUsersOwnInvented) {
   write_case(
       "# The terrain is synthetic, and the soil assumed (README.md): what comes out is none of a real site.\n#\n" +
@@ -202,3 +216,15 @@ TEST_F(Report, DoesNotCallAMapOfTheUsersOwnInvented) {
   EXPECT_EQ(told("SITE=own.asc"), all) << "around the site the terrain is the case's";
 }
 
+TEST_F(Report, OfAFlumeHasNoMaps) {
+  write_case(
+      "name: flume\ndimension: 2\nparticle_spacing: 0.01\nterrain: {profile: [[-0.3, 0.3], [0, 0], [0.5, 0]]}\n"
+      "water: {level: 0.1}\noutput: {end_time: 0.05, frame_interval: 0.05}\ngauges:\n  - {name: far, x: 0.3}\n");
+  make();
+  const std::set<std::string> found = headings();
+  EXPECT_FALSE(found.count("Wave") || found.count("Hazard classes") || found.count("Slide"));
+  EXPECT_TRUE(found.count("How far to trust these numbers"));
+}
+
+}  // namespace
+}  // namespace lgiw::test
