@@ -34,10 +34,9 @@ $(work)/arrival-median.tif: $(out)/arrival.tif | $(work)
 	@gdalwarp -q -overwrite -srcnodata nan -dstnodata 1e9 $< $(work)/arrival-late.tif
 	@gdalwarp -q -overwrite -r med -tr $(call cell,$<,5) $(call cell,$<,5) -srcnodata None -dstnodata None $(work)/arrival-late.tif $@
 
-$(work)/isochrones.geojson: $(work)/arrival-median.tif $(report)/arrival.awk $(work)/wave.styled
-	@gdal_translate -q -of XYZ $< /vsistdout/ | awk -v none=1e9 -f $(report)/arrival.awk > $(work)/arrival-wave.xyz
+$(work)/isochrones.geojson: $(work)/arrival-median.tif $(work)/wave.styled
 	@gdalwarp -q -overwrite -ot Float32 -r bilinear -tr $(call cell,$(out)/arrival.tif,1) $(call cell,$(out)/arrival.tif,1) -srcnodata 1e9 -dstnodata nan \
-	  $(work)/arrival-wave.xyz $(work)/arrival-smooth.tif
+	  $< $(work)/arrival-smooth.tif
 	@rm -f $(work)/contours.gpkg
 	@latest=$$($(call range,$(work)/arrival-smooth.tif) | jq '.bands[0].computedMax // 1'); \
 	gdal_contour -q -f GPKG -a value -i $$(jq -n "$$latest / 8 | . as \$$s | pow(10; log10 | floor) as \$$p | [1, 2, 5, 10] | map(select(. * \$$p >= \$$s))[0] * \$$p") \
@@ -75,7 +74,7 @@ $(out)/energy.png: $(out)/diagnostics.csv
 # --- The page -------------------------------------------------------------------------------------------------------------
 # HDF5 attributes by GDAL: the text of the case as it was run, the provenance of particles and run.
 $(work)/run-attributes.json: $(out)/run.h5 | $(work)
-	@gdalinfo -json $< | jq '.metadata[""] | {case_text: .lgiw_Case, vertical_datum: .lgiw_VerticalDatum, crs: .lgiw_CRS, provenance: .lgiw_Provenance}' > $@
+	@gdalinfo -json $< | jq '.metadata[""] | {case_text: .lgiw_Case, vertical_datum: .lgiw_VerticalDatum, attribution: .lgiw_Attribution, crs: .lgiw_CRS, provenance: .lgiw_Provenance}' > $@
 $(work)/particles-attributes.json: $(out)/particles.h5 | $(work)
 	@gdalinfo -json $< | jq '.metadata[""] | {provenance: .lgiw_Provenance}' > $@
 $(work)/plan.json: $(out)/particles.h5 $(lgiw_run) | $(work)
@@ -86,9 +85,9 @@ report_figures := $(addprefix $(out)/,$(if $(maps),wave-map.png hazard-map.png s
 $(work)/pictures.json: $(report)/embed $(report_figures) | $(work)
 	@$^ > $@
 
-# What the case says of itself, where it says that it is invented.
-$(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/README.md $(case_dir)/terrain/README.md) | $(work)
-	@awk -f $^ > $@
+# What the case says of itself, where it says that it is invented. A map of the user's own is not the case's invention.
+$(work)/invented.txt: $(report)/invented.awk $(case) $(wildcard $(case_dir)/README.md $(if $(strip $(TERRAIN)),,$(case_dir)/terrain/README.md)) | $(work)
+	@awk $(if $(strip $(TERRAIN)),-v terrain=replaced) -f $^ > $@
 
 report_data := $(out)/summary.json $(addprefix $(work)/,run-attributes.json particles-attributes.json plan.json pictures.json \
   $(if $(maps),shores.json zones.json))

@@ -31,8 +31,8 @@ $(out)/convergence.json $(out)/convergence.csv &: $(addsuffix /run.h5,$(folders)
 $(out)/spacings.json: $(addsuffix /summary.json,$(folders))
 	@jq -s '.' $^ > $@
 
-$(out)/spacings.txt: $(here)/spacings.jq $(out)/spacings.json $(out)/convergence.json $(reference)
-	@jq -n -r --slurpfile runs $(out)/spacings.json --slurpfile convergence $(out)/convergence.json \
+$(out)/spacings.txt: $(here)/spacings.jq $(out)/spacings.json $(out)/convergence.json $(reference) $(here)/numbers.jq
+	@jq -n -r -L $(here) --slurpfile runs $(out)/spacings.json --slurpfile convergence $(out)/convergence.json \
 	  --rawfile reference $(or $(reference),/dev/null) -f $< | column -t -s "$$(printf '\t')" > $@
 
 # Scripts see the spacings as words, finest last, and reference.csv ("" where there is none).

@@ -40,8 +40,8 @@ $(stability_out)/stability.json: stability-points
 $(stability_out)/stability.csv: $(stability_out)/stability.json
 	@jq -r '["axis", "value", "scene", "variant", "dimension", "resolution_m", "pass", "criterion", "dt_s", "dt_limited_by", "largest_stable_cfl", "particles", "wall_time_s", "announced"], (.[] | [.axis, .value, .scene, .variant, .dimension, .particle_spacing_m, .pass, .criterion, .dt_s, .dt_limited_by, .largest_stable_cfl, .particles, .wall_time_s, .announced]) | @csv' $< > $@
 
-$(stability_out)/stability.txt: $(here)/stability/table.jq $(stability_out)/stability.json $(stability_out)/stability.csv
-	@jq -r -f $(wordlist 1,2,$^) | column -t -s "$$(printf '\t')" > $@
+$(stability_out)/stability.txt: $(here)/stability/table.jq $(stability_out)/stability.json $(stability_out)/stability.csv $(here)/numbers.jq
+	@jq -r -L $(here) -f $(wordlist 1,2,$^) | column -t -s "$$(printf '\t')" > $@
 
 $(stability_out)/stability.png: $(here)/figures/stability.gp $(stability_out)/stability.json
 	@echo "figure $(@F)"; gnuplot -e "data='< jq -r -f $(here)/stability/marks.jq $(stability_out)/stability.json'; set output '$@'" $<

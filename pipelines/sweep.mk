@@ -90,7 +90,7 @@ $(sweep)/sweep.json: $(here)/sweep/collect.jq sweep-state | $(sweep_work)
 $(sweep)/sweep.csv: $(here)/sweep/csv.jq $(sweep)/sweep.json
 	@jq -r -f $^ > $@
 
-$(sweep)/sweep.txt: $(here)/sweep/text.jq $(sweep)/sweep.json $(here)/numbers.jq
+$(sweep)/sweep.txt: $(here)/sweep/text.jq $(sweep)/sweep.json $(here)/numbers.jq $(here)/sweep/values.jq
 	@jq -r -L $(here) -f $(wordlist 1,2,$^) > $@
 
 $(sweep_maps) &: $(here)/sweep/envelope $(sweep)/sweep.json $(foreach folder,$(sweep_done),$(addprefix $(folder)/,max_elevation.tif hazard.tif arrival.tif)) | $(sweep_work)
@@ -108,8 +108,8 @@ $(sweep_work)/hillshade.xyz: $(firstword $(sweep_done))/ground.tif | $(sweep_wor
 	$(as_hillshade)
 
 sweep_draw = @echo "figure $(@F)"; gnuplot -e "case='$(CASE)'; out='$(firstword $(sweep_done))'; work='$(sweep_work)'; set loadpath '$(here)/figures'; set output '$@'" $<
-$(sweep_work)/points.csv: $(here)/sweep/points.jq $(sweep)/sweep.json
-	@jq -r -f $^ > $@
+$(sweep_work)/points.csv: $(here)/sweep/points.jq $(sweep)/sweep.json $(here)/sweep/values.jq
+	@jq -r -L $(here) -f $(wordlist 1,2,$^) > $@
 $(sweep)/sweep.png: $(here)/figures/sweep.gp $(here)/figures/common.gp $(sweep_work)/points.csv
 	$(sweep_draw)
 $(sweep)/sweep-map.png: $(here)/figures/sweep-map.gp $(here)/figures/common.gp $(here)/figures/ground.gp \

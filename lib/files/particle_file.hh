@@ -4,7 +4,8 @@
 // PointData: Phase uint8 (0 water, 1 soil, 2 wall), Volume float32, Density float32, Pressure float32.
 // Outside /VTKHDF, group /lgiw (readers of VTKHDF ignore it):
 //   attributes: Format = "lgiw-particles 1", Dimension, ParticleSpacing, Origin [3] (add to local coordinates to get the
-//     case's CRS), CRS (WKT, "" for analytic scenes), VerticalDatum, StillWaterLevel (local z; NaN without water),
+//     case's CRS), CRS (WKT, "" for analytic scenes), VerticalDatum, Attribution (whom to name for
+//     the terrain; absent in older files), StillWaterLevel (local z; NaN without water),
 //     DomainLow [3], DomainHigh [3] (local; a particle outside has left), Sides [4] (west, east, south, north as Side),
 //     AbsorbingWidth, SoundSpeed (of the water, m/s; 0 without water), Counts [3] (int64: water, soil, wall), WallLeftOut,
 //     Case (YAML text), Provenance (JSON),
@@ -46,6 +47,7 @@ struct ParticleHeader {
   double dp = 0;
   std::array<double, 3> origin{0, 0, 0};
   std::string crs_wkt, vertical_datum;
+  std::string attribution;             // who is to be named for the terrain; "" where the case names nobody
   double still_water_level = 0;        // local; NaN without water
   std::array<double, 3> low{}, high{}; // local domain box
   std::array<Side, 4> sides{Side::wall, Side::wall, Side::wall, Side::wall};

@@ -181,6 +181,7 @@ void write_particle_header(h5::File& file, const ParticleHeader& header, const s
   file.set_attribute("/lgiw", "Origin", list(header.origin));
   file.set_attribute("/lgiw", "CRS", header.crs_wkt);
   file.set_attribute("/lgiw", "VerticalDatum", header.vertical_datum);
+  file.set_attribute("/lgiw", "Attribution", header.attribution);
   file.set_attribute("/lgiw", "StillWaterLevel", header.still_water_level);
   file.set_attribute("/lgiw", "DomainLow", list(header.low));
   file.set_attribute("/lgiw", "DomainHigh", list(header.high));
@@ -217,6 +218,7 @@ ParticleHeader read_header(const h5::File& file, const std::string& format, cons
   header.origin = read_vector(file, "Origin");
   header.crs_wkt = file.text_attribute("/lgiw", "CRS");
   header.vertical_datum = file.text_attribute("/lgiw", "VerticalDatum");
+  if (file.has_attribute("/lgiw", "Attribution")) header.attribution = file.text_attribute("/lgiw", "Attribution");
   header.still_water_level = file.number_attribute("/lgiw", "StillWaterLevel");
   header.low = read_vector(file, "DomainLow");
   header.high = read_vector(file, "DomainHigh");

@@ -47,7 +47,8 @@ using BrokenLimits = std::vector<BrokenLimit>;
 /// Where a formula comes from.
 struct Formula {
   std::string name, source;
-  bool verified = true;  // false: recalled, not verified against the source
+  bool verified = true;      // false: recalled, not verified against the source
+  bool limits_known = true;  // false: nothing is known here of the tests behind it
 };
 namespace formulas {
 extern const Formula vaw254_channel, vaw254_basin, fritz, huber_hager_channel, huber_hager_basin, mohammed_fritz,
@@ -94,7 +95,8 @@ BasinWave vaw254_impact(const SlideImpact& impact);
 /// r0(angle), m.
 double vaw254_impact_radius(const SlideImpact& impact, double angle);
 
-/// Largest crest in a channel, Fritz et al. (2004): 0.25 F^1.4 S^0.8 h. Slope 45 degrees (within one), F 1-4.8. Recalled.
+/// Largest crest in a channel, Fritz et al. (2004): 0.25 F^1.4 S^0.8 h. Slope 45 degrees (within one), F 1-4.8.
+/// Recalled.
 Estimate fritz_crest(const SlideImpact& impact);
 
 /// Wave height, Huber & Hager (1997), X = x/h or r/h: in a channel 0.88 sin(alpha) D^1/4 (V/(b h^2))^1/2 X^-1/4 h, in a

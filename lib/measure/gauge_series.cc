@@ -40,7 +40,15 @@ void GaugeRecorder::add(double time, const std::vector<float>& water, const std:
   }
 }
 
-GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds) {
+double gauge_arrival(const GaugeSeries& series, double threshold, double earliest) {
+  if (series.time.empty() || !(earliest <= series.time.back())) return no_value;
+  Series change{series.time, series.elevation};
+  const bool on_land = series.surface == GaugeSurface::water && series.initially_dry;
+  for (double& z : change.value) z -= on_land ? std::max(series.bed, series.reference) : series.reference;
+  return arrival_time(part_of(change, std::max(earliest, series.time.front()), series.time.back()), threshold);
+}
+
+GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds, double earliest) {
   GaugePeaks peaks{no_value, no_value, no_value, no_value, no_value, {}};
   const std::size_t n = series.time.size();
   const auto height = [&](std::size_t k) { return series.elevation[k] - series.reference; };
@@ -52,12 +60,9 @@ GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thr
     }
 
   const bool water = series.surface == GaugeSurface::water;
-  Series heights{series.time, series.elevation}, change{series.time, series.elevation};
-  for (std::size_t k = 0; k < n; ++k) {
-    heights.value[k] = height(k);
-    change.value[k] = water && series.initially_dry ? series.elevation[k] - series.bed : heights.value[k];
-  }
-  for (double threshold : thresholds) peaks.arrival.push_back(arrival_time(change, threshold));
+  Series heights{series.time, series.elevation};
+  for (std::size_t k = 0; k < n; ++k) heights.value[k] = height(k);
+  for (double threshold : thresholds) peaks.arrival.push_back(gauge_arrival(series, threshold, earliest));
   const double depth = water && !thresholds.empty() ? thresholds.front() : 0;
   const Extreme trough = water ? first_trough(heights, depth) : features_of(heights, depth).lowest;
   if (trough.value < 0) peaks.first_trough = trough.value, peaks.time_of_trough = trough.time;

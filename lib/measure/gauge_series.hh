@@ -40,12 +40,15 @@ struct GaugePeaks {
   /// Water: lowest height in the first stretch below still level that goes deeper than the first threshold. Soil:
   /// lowest height of all. NaN where there is none.
   double first_trough = 0, time_of_trough = 0;
-  /// For each threshold the first time at which the surface differs from the reference, or the water over dry land is
-  /// deep, by more than it; linear between samples; NaN: never.
+  /// gauge_arrival() for each threshold.
   std::vector<double> arrival;
 };
 
-GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds);
+/// The first time, not before `earliest` (earliest_arrival.hh), at which the surface differs from the reference, or the
+/// water over dry land above it is deep, by more than `threshold`; linear between samples; NaN: never.
+double gauge_arrival(const GaugeSeries& series, double threshold, double earliest);
+
+GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds, double earliest = 0);
 
 /// The arrival threshold of a case, with its default of a quarter of dp.
 double arrival_threshold(const Case& c, double dp);

@@ -43,6 +43,7 @@ void write_geotiff(const std::string& path, const RasterGrid& grid, const std::v
   GDALRasterBand* band = raster->GetRasterBand(1);
   band->SetUnitType(unit.c_str());
   band->SetDescription(description.c_str());
+  if (!where.attribution.empty()) raster->SetMetadataItem("TIFFTAG_COPYRIGHT", where.attribution.c_str());
   char words[][32] = {"COMPRESS=DEFLATE", "PREDICTOR=YES", "NUM_THREADS=1"};
   char* options[] = {words[0], words[1], words[2], nullptr};
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("COG");
@@ -66,6 +67,7 @@ struct GeoPackage::Impl {
     data.reset(driver->Create(file.temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     if (!data) fail(path);
     if (!where.crs_wkt.empty()) crs = crs_from_wkt(where.crs_wkt);
+    if (!where.attribution.empty()) data->SetMetadataItem("ATTRIBUTION", where.attribution.c_str());
   }
   ~Impl() {
     data.reset();

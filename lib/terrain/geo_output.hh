@@ -27,10 +27,12 @@ struct RasterGrid {
 };
 
 /// Where local coordinates lie: case CRS = local + origin. An empty WKT (analytic scenes) writes files without a CRS.
-/// origin[2] is not added to raster values.
+/// origin[2] is not added to raster values. The attribution, where there is one, goes into the TIFF tag Copyright and
+/// into the GeoPackage's metadata item ATTRIBUTION.
 struct GeoReference {
   std::array<double, 3> origin{0, 0, 0};
   std::string crs_wkt;
+  std::string attribution{};
 };
 
 /// Writes `values` [ny,nx] (row 0 in the south; NaN is no-data) as a one-band float32 Cloud Optimized GeoTIFF whose

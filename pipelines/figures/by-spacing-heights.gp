@@ -4,7 +4,7 @@ eval canvas(1100, 560)
 peaks(dp) = out."/dp".dp."/peaks.csv"
 water(dp) = "< awk -F, '!/^#/ && ++n > 1 && $2 == \"water\"' '".peaks(dp)."'"
 set title case.": greatest wave height at the gauges"
-set ylabel "above still level (m)"; set yrange [0:*]; set offsets 0.6, 0.6, graph 0.12, 0
+set ylabel "above still level (m)"; set yrange [*<0:1e-6<*]; set offsets 0.6, 0.6, graph 0.12, 0
 set key outside top center horizontal
 low = measured(reference, "any", "max_height_m", 4); high = measured(reference, "any", "max_height_m", 5)
 if (low ne "") { set arrow from graph 0, first real(low) to graph 1, first real(low) nohead dt 2 lw 1.5 }

@@ -22,7 +22,7 @@ def items: if length == 0 then empty else "<ul>", (.[] | "<li>\(text)</li>"), "<
 def table($caption; $headings; rows):
   [rows] as $rows
   | if ($rows | length) == 0 then empty else
-      ([range($headings | length)] | map(. as $c | $rows | any(.[$c] | type == "number" or (type == "string" and test("^(-|-?[0-9.,]+(e-?[0-9]+)?( %|\\*)?)$"))))) as $numbers
+      ([range($headings | length)] | map(. as $c | $rows | any(.[$c] | type == "number" or (type == "string" and test("^-?[0-9][0-9.,]*(e-?[0-9]+)?( to -?[0-9.,]+(e-?[0-9]+)?)?( %|\\*)?$"))))) as $numbers
       | def cell($tag; $c): "<\($tag)\(if $numbers[$c] then " class=\"number\"" else "" end)>\(. // "-" | text)</\($tag)>";
       "<div class=\"scroll\"><table><caption>\($caption | text)</caption>",
       "<thead><tr>" + ([range($headings | length) as $c | $headings[$c] | cell("th"; $c)] | add) + "</tr></thead><tbody>",
@@ -36,24 +36,50 @@ def section($title; body): [body] | if length == 0 then empty else "<section><h2
 def subsection($title; body): [body] | if length == 0 then empty else "<h3>\($title | text)</h3>", .[] end;
 # first_crest_m: first crest (m)
 def words: sub("_m_s$"; " (m/s)") | sub("_kg_m3$"; " (kg/m3)") | sub("_(?<unit>m|m3|s)$"; " (\(.unit))") | sub("_deg$"; " (degrees)") | gsub("_"; " ");
-# Estimates by empirical formulas beside the run, as impulse-wave sums them up.
+# What a reader opens who wants it; on paper it is open.
+def folded($summary; body): [body] | if length == 0 then empty else "<details><summary>\($summary | text)</summary>", .[], "</details>" end;
+def span: map(select(. != null)) | if length == 0 then "-" else (min | amount) as $low | (max | amount) as $high | if $low == $high then $low else "\($low) to \($high)" end end;
+# Empirical formulas beside the run, as impulse-wave sums them up: a row a formula and quantity over all places, those within
+# the tests that they were fitted to first; then each place.
+def starred: "\(.formula)\(if .verified then "" else "*" end)";
+def outside: if .limits_known == false then "not known" else [.limits_broken[]?.quantity] | unique | join(", ") | if . == "" then "-" else . end end;
+def families:
+  [.places[]? | . as $place | .estimates[]? | . + {place: $place.kind}]
+  | reduce .[] as $e ({}; .["\($e.quantity) \($e.formula)"] += [$e])
+  | map({quantity: (.[0].quantity | words), formula: (.[0] | starred), compared: map(select(.simulated != null and .predicted != null)), all: .,
+         outside: ({limits_known: .[0].limits_known, limits_broken: map(.limits_broken[]?)} | outside)})
+  | to_entries | sort_by((.value.outside | if . == "-" then 0 elif . == "not known" then 2 else 1 end), .key) | map(.value);
 def empirical:
-  table("Slide at its impact, as the formulas take it"; ["quantity", "value"];
-    (.slide // {} | to_entries[] | select(.value | type == "number") | [(.key | words), (.value | amount)]),
-    (.numbers // {} | to_entries[] | [.key, (.value | amount)])),
-  table("Estimates beside this run; * recalled, not checked against its source";
-    ["place", "distance (m)", "quantity", "formula", "estimate", "this run", "outside the tests in"];
-    .places[]? | . as $place | .estimates[]? | [($place | .name | if . == "" then $place.kind else . end), ($place.distance_m | amount), (.quantity | words),
-      "\(.formula)\(if .verified then "" else "*" end)", (.predicted | amount), (.simulated | amount), ([.limits_broken[]?.quantity] | join(", "))]),
-  table("Where the slide lies outside the tests that the formulas were fitted to"; ["formula", "source", "quantity", "value", "tested from", "to"];
-    [.places[]?.estimates[]? | {formula, source} + .limits_broken[]?] | unique[] | [.formula, .source, .quantity, (.value | amount), (.low | amount), (.high | amount)]),
-  (.notes // [] | items);
+  (families) as $families
+  | ($families | map(select(.outside == "-")) | length) as $within
+  | (if ($families | length) == 0 then empty
+     elif $within == 0 then "None of these formulas is within the tests that it was fitted to: they show the order of magnitude at best."
+     else "\($within) of \($families | length) are within the tests that they were fitted to, and stand first." end | paragraph),
+  table("Formulas beside this run, over all places that have both; * recalled, not checked against its source";
+    ["quantity", "formula", "places", "estimate", "this run", "run / estimate", "outside its tests in"];
+    $families[] | (if (.compared | length) > 0 then .compared else .all end) as $shown
+      | [.quantity, .formula, ($shown | length), ($shown | map(.predicted) | span), ($shown | map(.simulated) | span),
+         ([.compared[] | select(.predicted > 0) | .simulated / .predicted] | span), .outside]),
+  (.notes // [] | items),
+  folded("The slide at its impact, as the formulas take it";
+    table("Numbers as defined in docs/impulse-wave.md"; ["quantity", "value"];
+      (.slide // {} | to_entries[] | select(.value | type == "number") | [(.key | words), (.value | amount)]),
+      (.numbers // {} | to_entries[] | [.key, (.value | amount)]))),
+  folded("Each formula at each place";
+    table("Estimates beside this run; * recalled, not checked against its source";
+      ["place", "distance (m)", "quantity", "formula", "estimate", "this run", "outside its tests in"];
+      .places[]? | . as $place | .estimates[]? | [($place | .name | if . == "" then $place.kind else . end), ($place.distance_m | amount), (.quantity | words),
+        starred, (.predicted | amount), (.simulated | amount), outside])),
+  folded("Where the slide lies outside the tests that the formulas were fitted to";
+    table("Values and tests"; ["formula", "source", "quantity", "value", "tested from", "to"];
+      [.places[]?.estimates[]? | {formula, source} + .limits_broken[]?] | unique[] | [.formula, .source, .quantity, (.value | amount), (.low | amount), (.high | amount)]));
 
 file("summary") as $s | file("run_attributes") as $run | file("particles_attributes") as $particles | file("plan") as $plan
 | file("shores") as $shores | file("zones") as $zones
 | (file("sensitivity") | if .line? == $ARGS.named.uncertainty then . else null end) as $study
 | $s.still_water_level_m as $level | ($s.dimension == 2) as $flat | $s.end_time_s as $duration
 | (($run.vertical_datum // "") | if . == "" then "the case's datum" else . end) as $datum
+| (($run.attribution // "") | if . == "" then "" else " Terrain: \(.)." end) as $credit
 | (if $flat then " (2-D; volumes are per metre of width)" else "" end) as $per_metre
 | def where: if $flat then "x \(.x | place) m" else "E \(.x | place) m, N \(.y | place) m" end;
   # A maximum in the last fiftieth of the run may not be one.
@@ -90,10 +116,10 @@ file("summary") as $s | file("run_attributes") as $run | file("particles_attribu
 "</div>",
 
 section("Wave";
-  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds\($ARGS.named.threshold | if . == "" then "" else " (a change of the surface by \(.) m)" end), shoreline at rest and limit of inundation. Isochrones are smoothed by medians of 5 x 5 cells.")),
+  figure("wave-map"; "Highest water surface during the run above hillshade, arrival of the wave in seconds\($ARGS.named.threshold | if . == "" then "" else " (a change of the surface by \(.) m)" end), shoreline at rest and limit of inundation. Isochrones are smoothed by medians of 5 x 5 cells.\($credit)")),
 
 section("Hazard classes";
-  figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest."),
+  figure("hazard-map"; "Strong colours: largest flow depth on flooded land. Pale colours: largest wave height in the lake at rest.\($credit)"),
   (if $zones then table("Areas by class (ha)"; ["", "below 1 m", "1 m to 3 m", "above 3 m"];
      ["land, by largest flow depth", ($zones.hazard_area_m2.land[] / 1e4 | amount)], ["lake at rest, by largest wave height", ($zones.hazard_area_m2.lake[] / 1e4 | amount)]) else empty end)),
 
@@ -129,7 +155,7 @@ section("Slide";
      ["deposit above still level", ($s.deposit.height_above_water_m? | amount), "m"])
     | select(.[1] != "-")) end),
   figure("volumes"; "Volume of the slide, volume that entered the water, and speeds."),
-  figure("deposit-map"; "Thickness of the slide at the end of the run."),
+  figure("deposit-map"; "Thickness of the slide at the end of the run.\($credit)"),
   figure("slices"; "Particles in a slice along the first section at several times: plastic strain of the soil, speed of the water."),
   figure("sections"; "Sections: ground before the slide, bed, soil and water at several times.")),
 
@@ -165,6 +191,7 @@ section("Provenance";
        ["numerics", "\($s.model // ""); scheme \($s.scheme // "-"), kernel \($s.kernel // "-"), h/dp \($s.h_over_dp // "-"), \($s.integrator // "-"), CFL \($s.cfl // "-")"],
        ["speed of sound of the water", ($s.sound_speed_m_s | with_unit("m/s"))],
        ["run", "\($s.steps | thousands) steps to \($duration | amount) s in \($s.wall_time_s | fixed(0)) s on \($s.device // "-"), \($s.threads // "-") threads"],
+       (if $credit == "" then empty else ["terrain", $run.attribution] end),
        ["coordinates", (($run.crs // "") | if . == "" then "none" else capture("^[A-Z]+\\[\"(?<n>[^\"]*)\"").n? // "as in the case" end)], ["vertical datum", $datum])),
     subsection("Commands and versions"; $made[] | "<p>\("\(.tool) \(.version)" | text)<br/><code>\(.command_line | text)</code></p>"),
     subsection("Inputs, with their SHA-256"; [$made[].inputs[]?] | unique_by(.path)[] | "<p>\(.path | text)<br/><code>\(.sha256 | text)</code></p>"),

@@ -1,7 +1,6 @@
-# The stability matrix as a tab-separated table, a line a point of an axis; of stability.json.
+# The stability matrix as a tab-separated table, a line a point of an axis; of stability.json: jq -L FOLDER -f table.jq
+include "numbers";
 def mark: if . == null then "-" elif .pass then "pass" else .criterion end;
-def three: if type != "number" then "-" elif . == 0 then "0" else (fabs | log10 | floor) as $e
-  | pow(10; 2 - $e) as $p | . * $p | round / $p | tostring end;
 (["axis", "value", "scene", "2-D", "2-D fine", "3-D", "dt (s)", "limited by", "stable to CFL"] | @tsv),
 (group_by([.axis, .scene, (.value | tostring)]) | sort_by(.[0].id)[]
   | (map({key: .variant, value: .}) | from_entries) as $v | .[0] as $p

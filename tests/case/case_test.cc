@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.hh"
+#include "case/attribution.hh"
 #include "case/dotted_key.hh"
 #include "case_summary.hh"
 
@@ -98,7 +99,9 @@ terrain:
   vertical_datum: EGM96
   sources:
   - file: coarse.tif
-  - {file: sub/fine.tif, blend: 90, vertical_shift: -0.4}
+  - {file: sub/fine.tif, blend: 90, vertical_shift: -0.4, attribution: "Office: <A> & B, CC BY 4.0"}
+  - {file: finest.tif, attribution: SRTM}
+  - {file: site.tif, attribution: "Office: <A> & B, CC BY 4.0"}
   voids: fill
   spikes: remove
   spike_threshold: 80
@@ -129,7 +132,8 @@ deposit: {adps_threshold: 0.1}
   EXPECT_EQ(c.name, "Canyon-2.b_o'clock");
   EXPECT_EQ(c.dp, 12.5);
   EXPECT_EQ(c.gravity[2], -9.8);
-  ASSERT_EQ(c.terrain.sources.size(), 2u);
+  ASSERT_EQ(c.terrain.sources.size(), 4u);
+  EXPECT_EQ(terrain_attribution(c.text), "Office: <A> & B, CC BY 4.0; SRTM");
   EXPECT_EQ(c.terrain.sources[0].blend, 0);
   EXPECT_EQ(c.terrain.sources[1].file, "sub/fine.tif");
   EXPECT_EQ(c.terrain.sources[1].blend, 90);

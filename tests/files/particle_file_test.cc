@@ -26,6 +26,7 @@ TEST(ParticleFile, RoundTrip) {
   EXPECT_EQ(h.origin, wanted.origin);
   EXPECT_EQ(h.crs_wkt, wanted.crs_wkt);
   EXPECT_EQ(h.vertical_datum, "EGM96");
+  EXPECT_EQ(h.attribution, "Office, CC BY 4.0");
   EXPECT_EQ(h.still_water_level, 2.25);
   EXPECT_EQ(h.low, wanted.low);
   EXPECT_EQ(h.high, wanted.high);

@@ -15,6 +15,7 @@ inline ParticleHeader small_header() {
   header.origin = {400000.25, 3800000.5, 700};
   header.crs_wkt = "PROJCRS[\"WGS 84 / UTM zone 11N\"]";
   header.vertical_datum = "EGM96";
+  header.attribution = "Office, CC BY 4.0";
   header.still_water_level = 2.25;
   header.low = {0, 0, 0};
   header.high = {10, 5, 4};

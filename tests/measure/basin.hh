@@ -40,13 +40,15 @@ inline double basin_wave(double x, double t) {
 /// The level at the east bank: 4 m above still water at t = 12 s.
 inline double basin_bank_level(double t) { return basin_level + 4 * std::max(0.0, 1 - std::abs(t - 12) / 4); }
 
-/// Water surface by node; NaN where dry. The wave is in the basin to x = 70, the level of the bank beyond.
+/// Water surface by node; NaN where dry. The wave is in the basin to x = 70, the level of the bank beyond. At (60, 4) the
+/// water finds its place first: until t = 1.5 s it stands a metre too high.
 inline std::vector<float> basin_water(const SurfaceMap& map, double t) {
   std::vector<float> z(map.size(), NAN);
   for (std::size_t n = 0; n < z.size(); ++n) {
     const double x = map.x0 + double(n % map.nx) * map.dx;
     const double surface = x > 70 ? basin_bank_level(t) : basin_level + basin_wave(x, t);
     if (x > 15 && basin_ground(x) < surface) z[n] = float(surface);
+    if (t < 1.5 && x == 60 && map.y(n) == 4) z[n] += 1;
   }
   return z;
 }

@@ -120,7 +120,7 @@ TEST(Gauges, RippleBeforeTheTroughIsNotTheTrough) {
 
 TEST(ArrivalMap, TimesOfTheFirstSampleBeyondEachThreshold) {
   const RunHeader header = basin_header();
-  ArrivalMap map(header, {0.5, 1.9});
+  ArrivalMap map(header, {0.5, 1.9}, std::vector<double>(header.map.size(), 0));
   for (int k = 0; k <= 60; ++k) map.add(0.5 * k, basin_water(header.map, 0.5 * k));
   const std::size_t row = 10 * header.map.nx;
   EXPECT_EQ(map.arrival(0)[row + 20], 4);  // x = 40: at 3.5 s exactly half a metre, not more
@@ -128,6 +128,48 @@ TEST(ArrivalMap, TimesOfTheFirstSampleBeyondEachThreshold) {
   EXPECT_EQ(map.arrival(0)[row + 42], 11);            // x = 84, bed 12: 12.5 at 10.5 s, not more
   EXPECT_TRUE(std::isnan(map.arrival(1)[row + 43]));  // x = 86, bed 13, highest level 14
   EXPECT_TRUE(std::isnan(map.arrival(0)[row + 3]));
+}
+
+TEST(ArrivalMap, BeforeTheFastestWaveIsNoneOfTheWave) {
+  const RunHeader header = basin_header();
+  std::vector<double> earliest(header.map.size(), 0);
+  ArrivalMap any(header, {0.5}, earliest);
+  for (double& t : earliest) t = 2;
+  earliest[12 * header.map.nx + 30] = 9.6;
+  ArrivalMap map(header, {0.5}, earliest);
+  for (int k = 0; k <= 60; ++k)
+    for (ArrivalMap* m : {&any, &map}) m->add(0.5 * k, basin_water(header.map, 0.5 * k));
+  const std::size_t settling = 2 * header.map.nx + 30;
+  EXPECT_EQ(any.arrival(0)[settling], 0);
+  EXPECT_EQ(map.arrival(0)[settling], 9)
+      << "the wave's own: its crest is 4 m away, at 8.5 s it was 6 m and half a metre";
+  EXPECT_EQ(map.arrival(0)[3 * header.map.nx + 30], 9);
+  EXPECT_EQ(map.arrival(0)[12 * header.map.nx + 30], 10) << "what is there when the wave can be counts";
+}
+
+TEST(ArrivalMap, WaterThatIsMeasuredOnlyLaterIsStillTheLake) {
+  const RunHeader header = basin_header();
+  const std::size_t shallow = 10 * header.map.nx + 20;
+  ArrivalMap map(header, {0.5}, std::vector<double>(header.map.size(), 0));
+  GaugeRecorder gauge(header, {{"G1", 1040, 20}});
+  for (int k = 0; k <= 60; ++k) {
+    std::vector<float> water = basin_water(header.map, 0.5 * k);
+    if (k < 2) water[shallow] = NAN;
+    map.add(0.5 * k, water), gauge.add(0.5 * k, water, {});
+  }
+  EXPECT_EQ(map.arrival(0)[shallow], 4);
+  EXPECT_TRUE(gauge.series()[0].initially_dry);
+  EXPECT_NEAR(gauge_arrival(gauge.series()[0], 0.5, 0), 3.5, 1e-5);
+}
+
+TEST(Gauges, ArriveNotBeforeTheFastestWave) {
+  const auto series = recorded(basin_header(), {{"settling", 1060, 4}, {"G1", 1040, 20}});
+  EXPECT_EQ(gauge_arrival(series[0], 0.5, 0), 0);
+  EXPECT_NEAR(gauge_arrival(series[0], 0.5, 2), 8.5, 1e-5);
+  EXPECT_NEAR(gauge_peaks(series[0], {0.5, 1}, 2).arrival[1], 9, 1e-5);
+  EXPECT_NEAR(gauge_arrival(series[1], 0.5, 4.2), 4.2, 1e-5) << "it is there already";
+  EXPECT_TRUE(std::isnan(gauge_arrival(series[1], 0.5, 31)));
+  EXPECT_TRUE(std::isnan(gauge_arrival(series[1], 0.5, infinite)));
 }
 
 TEST(Runup, OnAPlaneBankIsTheLevelThatTheWaterReached) {

@@ -123,6 +123,7 @@ TEST_F(MeasuringTools, GaugesMapsAreGeoreferenced) {
   EXPECT_FLOAT_EQ(value("max_depth.tif", 42, 3), 2);
   EXPECT_FLOAT_EQ(value("max_speed.tif", 42, 3), 3);
   EXPECT_FLOAT_EQ(value("arrival.tif", 20, 3), 4);
+  EXPECT_FLOAT_EQ(value("arrival.tif", 30, 2), 9);  // not while the water finds its place
   EXPECT_FLOAT_EQ(value("arrival_1.9m.tif", 20, 3), 5);
   EXPECT_FLOAT_EQ(value("hazard.tif", 20, 3), 2);  // 2 m
   EXPECT_FLOAT_EQ(value("hazard.tif", 38, 3), 3);  // 4 m at the eastern end of the lake

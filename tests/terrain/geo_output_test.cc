@@ -17,7 +17,7 @@ using namespace test;
 GeoReference utm() {
   OGRSpatialReference crs;
   crs.importFromEPSG(32611);
-  return {{388000, 3793000, 0}, detail::wkt_of(crs)};
+  return {{388000, 3793000, 0}, detail::wkt_of(crs), "Office <A> & B, CC BY 4.0"};
 }
 
 std::string bytes(const std::string& path) {
@@ -52,6 +52,7 @@ TEST(GeoTiff, ReadsBackWithCrsUnitAndNoData) {
   EXPECT_EQ(back[3], 1);
   EXPECT_EQ(std::string(data->GetSpatialRef()->GetAuthorityCode(nullptr)), "32611");
   EXPECT_EQ(std::string(data->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE")), "COG");
+  EXPECT_EQ(std::string(data->GetMetadataItem("TIFFTAG_COPYRIGHT")), "Office <A> & B, CC BY 4.0");
 }
 
 TEST(GeoTiff, RerunsAreByteIdenticalAndNothingIsOverwritten) {
@@ -77,6 +78,7 @@ TEST(GeoTiff, ScenesWithoutACrs) {
   ASSERT_TRUE(data);
   EXPECT_EQ(data->GetRasterYSize(), 1);
   EXPECT_EQ(data->GetSpatialRef(), nullptr);
+  EXPECT_EQ(data->GetMetadataItem("TIFFTAG_COPYRIGHT"), nullptr);
 }
 
 void write_package(const std::string& path, bool overwrite = false) {
@@ -100,6 +102,7 @@ TEST(GeoPackages, ReadBack) {
   GDALDatasetUniquePtr data(GDALDataset::Open(scratch("a.gpkg").c_str(), GDAL_OF_VECTOR));
   ASSERT_TRUE(data);
   ASSERT_EQ(data->GetLayerCount(), 3);
+  EXPECT_EQ(std::string(data->GetMetadataItem("ATTRIBUTION")), "Office <A> & B, CC BY 4.0");
   OGRLayer* gauges = data->GetLayerByName("gauges");
   EXPECT_EQ(std::string(gauges->GetSpatialRef()->GetAuthorityCode(nullptr)), "32611");
   OGRFeatureUniquePtr feature(gauges->GetNextFeature());

@@ -90,15 +90,18 @@ class Report : public testing::Test {
 };
 
 TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
-  write_case(
-      "# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
-      replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20", "friction_angle: 5"));
+  write_case("# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
+             replaced(replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20",
+                               "friction_angle: 5"),
+                      "- file: dem.asc", "- {file: dem.asc, attribution: \"Survey <b> & Co, CC BY 4.0\"}"));
   make("THRESHOLDS=1");
   EXPECT_EQ(headings(), (std::set<std::string>{"Wave", "Hazard classes", "Run-up", "Gauges", "Slide",
                                                "How far to trust these numbers", "Empirical cross-check", "Provenance",
                                                "Left out"}));
   EXPECT_TRUE(has("<strong>Not an assessment of a real site.</strong>"));
   EXPECT_TRUE(has("&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;"));
+  EXPECT_TRUE(has("smoothed by medians of 5 x 5 cells. Terrain: Survey &lt;b&gt; &amp; Co, CC BY 4.0.</figcaption>"));
+  EXPECT_TRUE(has("<td>terrain</td><td>Survey &lt;b&gt; &amp; Co, CC BY 4.0</td>"));
   const json gauges = result("gauges.json"), slide = result("slide.json");
   const auto cell = [&](double value) { return has("<td class=\"number\">" + printed(value) + "</td>"); };
   EXPECT_TRUE(cell(gauges["gauges"][0]["max_height_m"])) << gauges["gauges"][0];
@@ -109,6 +112,32 @@ TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
   const json provenance = gauges["provenance"]["gauges"];
   EXPECT_TRUE(has(provenance["inputs"][0]["sha256"].get<std::string>()));
   EXPECT_TRUE(has("dem2particles " + provenance["version"].get<std::string>()));
+
+  // A row a formula and quantity in sight, each place and each limit folded away, and nothing lost.
+  const json places = result("impulse.json")["impulse_wave"]["places"];
+  std::set<std::string> families;
+  std::size_t estimates = 0;
+  for (const json& place : places)
+    for (const json& e : place["estimates"]) {
+      families.insert(e["quantity"].get<std::string>() + e["formula"].get<std::string>());
+      EXPECT_TRUE(cell(e["predicted"])) << e;
+      ++estimates;
+    }
+  ASSERT_GT(families.size(), 4u);
+  const std::size_t check = page.find("<h2>Empirical cross-check</h2>"), fold = page.find("<details>", check),
+                    end = page.find("</section>", check);
+  const auto rows = [&](const std::string& start, std::size_t from, std::size_t to) {
+    std::size_t count = 0;
+    for (std::size_t at = page.find(start, from); at < to; at = page.find(start, at + 1)) ++count;
+    return count;
+  };
+  ASSERT_LT(fold, end);
+  EXPECT_EQ(rows("<tr><td>", check, fold), families.size());
+  const std::size_t each = page.find("<summary>Each formula at each place</summary>", fold);
+  EXPECT_EQ(rows("<tr><td>", each, page.find("</details>", each)), estimates);
+  EXPECT_EQ(rows("<td>Mohammed-Fritz*</td>", check, fold), 1u);
+  EXPECT_NE(page.find("<td>not known</td>", check), std::string::npos)
+      << "Mohammed-Fritz has no limits, and is not within any";
 
   // Names that a case may not have but --gauge may.
   const std::string out = (shop / "out").string();
@@ -156,6 +185,35 @@ TEST_F(Report, WithoutSlideGaugesAndSectionsLeavesThemOut) {
   EXPECT_FALSE(found.count("Slide") || found.count("Gauges")) << page.size();
   EXPECT_TRUE(found.count("Wave") && found.count("Provenance"));
   EXPECT_FALSE(has("Not an assessment"));
+}
+
+TEST_F(Report, DoesNotCallAMapOfTheUsersOwnInvented) {
+  write_case(
+      "# The terrain is synthetic, and the soil assumed (README.md): what comes out is none of a real site.\n#\n" +
+      replaced(bowl_case, "slide:", "slide:  # An invented slide in a valley."));
+  write_bytes(shop / "scene/README.md",
+              "# A synthetic gorge: a bowl\n\nThe lake is **hypothetical**, its\nbed invented.\n");
+  fs::create_directory(shop / "scene/terrain");
+  write_bytes(shop / "scene/terrain/README.md", "Heights are invented.\n");
+  write_bytes(shop / "own.asc", ascii_grid());
+  const auto told = [&](const std::string& map) {
+    const std::string out = (shop / "out").string(),
+                      file = out + (map.empty() ? "" : "/on-own") + "/.work/invented.txt";
+    const Outcome outcome = shop.run("env -u MAKEFLAGS -u MAKELEVEL -u called_from make -C '" LGIW_SOURCE_DIR
+                                     "/pipelines' BIN='" LGIW_BIN_DIR "' CASE_DIR='" +
+                                     (shop / "scene").string() + "' OUT='" + out + "' " + map + " '" + file + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read_bytes(file);
+  };
+  const std::string slide = "An invented slide in a valley.\n", lake = "The lake is hypothetical, its bed invented.\n",
+                    all =
+                        "The terrain is synthetic, and the soil assumed (README.md): what comes out is none of a real "
+                        "site.\n" +
+                        slide + "A synthetic gorge: a bowl.\n" + lake + "Heights are invented.\n";
+  EXPECT_EQ(told(""), all);
+  EXPECT_EQ(told("TERRAIN=own.asc"), slide + lake) << "the slide and the lake are still the case's";
+  fs::remove_all(shop / "out");
+  EXPECT_EQ(told("SITE=own.asc"), all) << "around the site the terrain is the case's";
 }
 
 TEST_F(Report, OfAFlumeHasNoMaps) {

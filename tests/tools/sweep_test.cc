@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "bowl.hh"
 #include "tool_runner.hh"
@@ -16,7 +17,8 @@ class Sweep : public testing::Test {
  protected:
   Sweep() {
     fs::create_directories(shop / "bowl");
-    write_bytes(shop / "bowl/case.yaml", replaced(bowl_case, "end_time: 1", "end_time: 2"));
+    write_bytes(shop / "bowl/case.yaml", replaced(replaced(bowl_case, "end_time: 1", "end_time: 2"), "- file: dem.asc",
+                                                  "- {file: dem.asc, attribution: Survey office}"));
     write_bytes(shop / "bowl/dem.asc", ascii_grid());
   }
   Outcome make(const std::string& goals) {
@@ -98,6 +100,7 @@ TEST_F(Sweep, GathersItsRunsMarksWhatFailsAndRerunsWhatAnEditTouches) {
   const json info = json::parse(shop.run("gdalinfo -json out/sweep/share_above_1m.tif").out);
   EXPECT_NE(info["coordinateSystem"]["wkt"].get<std::string>().find("32611"), std::string::npos);
   EXPECT_EQ(info["metadata"]["IMAGE_STRUCTURE"]["LAYOUT"], "COG");
+  EXPECT_EQ(info["metadata"][""]["TIFFTAG_COPYRIGHT"], "Survey office");
   EXPECT_NE(info["bands"][0]["description"].get<std::string>().find("share of 2 runs"), std::string::npos);
   EXPECT_EQ(json::parse(shop.run("gdalinfo -json out/sweep/envelope_height.tif").out)["bands"][0]["unit"], "m");
   for (const char* style :
@@ -141,7 +144,10 @@ TEST_F(Sweep, GathersItsRunsMarksWhatFailsAndRerunsWhatAnEditTouches) {
 
 TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
   write_bytes(shop / "bowl/case.yaml", replaced(bowl_case, "end_time: 1", "end_time: 0.5"));
-  write_bytes(shop / "bowl/sweep.yaml", "runs: [{name: low}, {name: high, water.level: 120}]\n");
+  const std::string own = "[[500180, 3699940], [500260, 3699940], [500260, 3700060], [500180, 3700060]]",
+                    larger = "[[500180, 3699920], [500260, 3699920], [500260, 3700080], [500180, 3700080]]";
+  write_bytes(shop / "bowl/sweep.yaml",
+              "runs:\n  - {name: low}\n  - {name: high, water.level: 120, slide.polygon: " + larger + "}\n");
   const Outcome list = make("sweep-list");
   ASSERT_EQ(list.status, 0) << list.err;
   EXPECT_NE(list.out.find("1\tlow\n2\thigh\n"), std::string::npos) << list.out;
@@ -162,6 +168,22 @@ TEST_F(Sweep, ListsItsRunsAndTheCommandsOfAJobArrayWhoseTasksAreTheRuns) {
   EXPECT_EQ(gathered.status, 0) << gathered.err << gathered.out;
   EXPECT_EQ(sweep()["runs"][1]["threads"], 1);
   EXPECT_TRUE(sweep()["runs"][1]["max_height_m"].is_number());
+
+  // A polygon goes by its number in the table and in the figure, and is told once; other tools find it in full.
+  const std::string text = read_bytes(shop / "out/sweep/sweep.txt"), csv = read_bytes(shop / "out/sweep/sweep.csv");
+  EXPECT_TRUE(std::regex_search(text, std::regex("run +water.level +slide.polygon +G1 "))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("  low +110 +#1 "))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("  high +120 +#2 "))) << text;
+  EXPECT_NE(text.find("\n  slide.polygon #1: " + own + "\n  slide.polygon #2: " + larger + "\n"), std::string::npos)
+      << text;
+  EXPECT_NE(csv.find("\"" + larger + "\",\"done\""), std::string::npos) << csv;
+  std::istringstream points(read_bytes(shop / "out/sweep/.work/points.csv"));
+  std::set<std::string> labels;
+  for (std::string row; std::getline(points, row);) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 4) << row;
+    if (row.rfind("slide.polygon,", 0) == 0) labels.insert(row.substr(row.find('#'), row.rfind(',') - row.find('#')));
+  }
+  EXPECT_EQ(labels, (std::set<std::string>{"#1", "#2"}));
 }
 
 TEST_F(Sweep, FaultsAreToldInOneLineBeforeAnyRun) {

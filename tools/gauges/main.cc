@@ -17,6 +17,7 @@
 #include "measure/chosen_frames.hh"
 #include "measure/comparison.hh"
 #include "measure/csv_table.hh"
+#include "measure/earliest_arrival.hh"
 #include "measure/gauge_series.hh"
 #include "measure/section_runup.hh"
 #include "measure/surface_sampling.hh"
@@ -371,7 +372,10 @@ int run(const Options& options, const std::string& command) {
   results.hash_inputs();
 
   RunupRecorder runup(header, has_water ? c.sections : std::vector<Section>{});
-  ArrivalMap arrivals(header, options.maps.empty() ? std::vector<double>{} : options.thresholds);
+  const std::vector<double> earliest = earliest_arrival(run, c);
+  std::vector<double> mapped{m.thresholds.front()};
+  mapped.insert(mapped.end(), options.thresholds.begin(), options.thresholds.end());
+  ArrivalMap arrivals(header, options.maps.empty() ? std::vector<double>{} : mapped, earliest);
   std::vector<float> first_water;
   {
     Progress progress(options.common.show_progress(), "gauges");
@@ -385,7 +389,10 @@ int run(const Options& options, const std::string& command) {
     }
   }
   m.gauges = gauges.series();
-  for (const GaugeSeries& s : m.gauges) m.peaks.push_back(gauge_peaks(s, m.thresholds));
+  for (const GaugeSeries& s : m.gauges)
+    m.peaks.push_back(gauge_peaks(
+        s, m.thresholds,
+        earliest_near(header.map, earliest, s.gauge.x - particles.origin[0], s.gauge.y - particles.origin[1])));
   m.sections = runup.sections();
   for (const SectionRunup& s : m.sections) {
     if (!std::isnan(s.max_height) && !(s.max_height <= m.runup)) m.runup = s.max_height;

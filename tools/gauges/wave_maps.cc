@@ -58,7 +58,7 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
                        const std::vector<GaugePeaks>& peaks, bool overwrite) {
   const RunHeader& header = run.header();
   const ParticleHeader& particles = header.particles;
-  const GeoReference where{particles.origin, particles.crs_wkt};
+  const GeoReference where{particles.origin, particles.crs_wkt, particles.attribution};
   const RasterGrid grid(header.map);
   const auto raster = [&](const std::string& name, const std::vector<float>& values, const char* unit,
                           const std::string& description) {
@@ -75,11 +75,10 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
   raster("max_elevation.tif", in_datum, "m", "highest water surface" + datum);
   raster("max_depth.tif", depth, "m", "largest water depth");
   raster("max_speed.tif", run.maximum("speed"), "m/s", "largest speed of the water");
-  raster("arrival.tif", run.maximum("arrival"), "s", "arrival of the wave");
   for (std::size_t t = 0; t < arrivals.thresholds().size(); ++t) {
     char text[80];
     std::snprintf(text, sizeof text, "arrival of a change of %g m", arrivals.thresholds()[t]);
-    raster(arrival_name(arrivals.thresholds()[t]), arrivals.arrival(t), "s", text);
+    raster(t == 0 ? "arrival.tif" : arrival_name(arrivals.thresholds()[t]), arrivals.arrival(t), "s", text);
   }
 
   const std::vector<uint8_t> lake = lake_at_rest(header, first_water);

@@ -13,10 +13,11 @@ namespace lgiw {
 /// Names of the files that write_wave_maps() writes into `folder`.
 std::vector<std::string> wave_map_files(const std::string& folder, const std::vector<double>& thresholds);
 
-/// GeoTIFFs ground and max_elevation (case datum), max_depth, max_speed, arrival, arrival_<threshold>m and hazard (0-3,
-/// see shore.hh), and wave.gpkg with the layers gauges (points), shoreline and shore_runup (lines; each piece of the
-/// latter with runup_m, elevation_m and its distance along the shore), inundation (1 lake at rest, 2 inundated land)
-/// and hazard (polygons). Returns the largest run-up along the shore above still water level, m.
+/// GeoTIFFs ground and max_elevation (case datum), max_depth, max_speed, arrival (of the first threshold of
+/// `arrivals`), arrival_<threshold>m (of the others) and hazard (0-3, see shore.hh), and wave.gpkg with the layers
+/// gauges (points), shoreline and shore_runup (lines; each piece of the latter with runup_m, elevation_m and its
+/// distance along the shore), inundation (1 lake at rest, 2 inundated land) and hazard (polygons). Returns the largest
+/// run-up along the shore above still water level, m.
 double write_wave_maps(const std::string& folder, const RunReader& run, const std::vector<float>& first_water,
                        const ArrivalMap& arrivals, const std::vector<GaugeSeries>& gauges,
                        const std::vector<GaugePeaks>& peaks, bool overwrite);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "case/dotted_key.hh"
+#include "measure/earliest_arrival.hh"
 #include "measure/gauge_series.hh"
 #include "measure/norms.hh"
 #include "measure/section_runup.hh"
@@ -28,13 +29,12 @@ Polar seen_from(const Assessment& a, double x, double y) {
 /// Heights above still water level, and of them the first crest, the trough behind it and the crest behind that.
 struct MeasuredWave {
   Extreme crest, trough, second_crest, highest;
-  double arrival;
 };
 MeasuredWave measured_wave(const GaugeSeries& s, double threshold) {
   Series heights{s.time, s.elevation};
   for (double& z : heights.value) z -= s.reference;
   const SeriesFeatures features = features_of(heights, threshold);
-  MeasuredWave wave{features.crest, {no_value, no_value}, {no_value, no_value}, features.highest, features.arrival};
+  MeasuredWave wave{features.crest, {no_value, no_value}, {no_value, no_value}, features.highest};
   if (std::isnan(wave.crest.time)) return wave;
   wave.trough = first_trough(part_of(heights, wave.crest.time, s.time.back()), threshold);
   if (!std::isnan(wave.trough.time))
@@ -44,13 +44,17 @@ MeasuredWave measured_wave(const GaugeSeries& s, double threshold) {
 
 void add_gauges(Assessment& a, const RunReader& run, const Case& c, const GaugeRecorder& gauges) {
   const double threshold = arrival_threshold(c, run.header().particles.dp);
+  const std::vector<double> earliest = earliest_arrival(run, c);
+  const auto& origin = run.header().particles.origin;
   for (const GaugeSeries& s : gauges.series()) {
     if (s.surface != GaugeSurface::water || s.initially_dry) continue;
     const Polar seen = seen_from(a, s.gauge.x, s.gauge.y);
     Place place = wave_place(a, "gauge", s.gauge.name, seen.distance, seen.angle, a.entry->start);
     place.x = s.gauge.x, place.y = s.gauge.y;
     const MeasuredWave wave = measured_wave(s, threshold);
-    place.largest_crest = wave.highest.value, place.time_of_largest = wave.highest.time, place.arrival = wave.arrival;
+    place.largest_crest = wave.highest.value, place.time_of_largest = wave.highest.time;
+    place.arrival = gauge_arrival(
+        s, threshold, earliest_near(run.header().map, earliest, s.gauge.x - origin[0], s.gauge.y - origin[1]));
     const std::map<std::string, double> simulated{{"first_crest_m", wave.crest.value},
                                                   {"first_trough_m", -wave.trough.value},
                                                   {"second_crest_m", wave.second_crest.value},

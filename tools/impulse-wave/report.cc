@@ -223,6 +223,7 @@ ordered_json report_json(const Assessment& a) {
                                     {"formula", e.formula.name},
                                     {"source", e.formula.source},
                                     {"verified", e.formula.verified},
+                                    {"limits_known", e.formula.limits_known},
                                     {"predicted", e.predicted},
                                     {"simulated", e.simulated},
                                     {"limits_broken", limits_json(e.broken)}});
