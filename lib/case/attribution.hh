@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "case/case.hh"
+
 namespace lgiw {
 
-/// Who is to be named wherever anything made from the terrain is published: terrain.sources[].attribution of a case's
-/// text, each once and in their order, with "; " between them; "" where the case names nobody.
-std::string terrain_attribution(const std::string& case_text);
+/// Who is to be named wherever anything made from the terrain is published: the attributions of its sources, each once
+/// and in their order, with "; " between them; "" where the case names nobody.
+std::string terrain_attribution(const Terrain& terrain);
 
 }  // namespace lgiw

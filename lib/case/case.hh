@@ -30,6 +30,7 @@ struct TerrainSource {
   std::string file;           // any raster that GDAL opens; relative to the case file
   double blend = 0;           // m: width of the blended seam to the sources below; 0: four pixels of the coarser
   double vertical_shift = 0;  // m, added to the values
+  std::string attribution;    // who is to be named wherever anything made from it is published; empty: nobody
 };
 
 struct Terrain {

@@ -55,8 +55,7 @@ void read_terrain(const YamlSection& s, Terrain& t) {
     item.text("file", source.file);
     item.number("blend", source.blend, automatic("m"));
     item.number("vertical_shift", source.vertical_shift, between(-1000, 1000, "m"));
-    std::string attribution;  // attribution.hh reads it off the text, which travels with the results
-    item.text("attribution", attribution);
+    item.text("attribution", source.attribution);
   });
   s.choice<bool>("voids", t.fill_voids, {{"refuse", false}, {"fill", true}});
   s.choice<bool>("spikes", t.remove_spikes, {{"keep", false}, {"remove", true}});

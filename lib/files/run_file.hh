@@ -12,7 +12,8 @@
 //       soil float32 [nt,ny,nx] soil-surface elevation, NaN where there is none (absent without soil)
 //   /lgiw/maxima: float32 [ny,nx], same map, accumulated while running: elevation (of the water surface), depth, speed
 //       (of water), arrival (first time at which the surface differs from the first one, or a dry bed is wet, by more than
-//       the arrival threshold, also before any wave can be there; gauges makes its maps of the surfaces; NaN: never), soil_speed (absent without soil). Absent without water except soil_speed.
+//       the arrival threshold, also before any wave can be there; gauges makes its maps of the surfaces; NaN: never),
+//       soil_speed (absent without soil). Absent without water except soil_speed.
 //   /lgiw/pressure_gauges, where the case has any: attributes Count (nt), Names (one a line); time float64 [nt], the times of
 //       the surfaces; one float32 [nt] dataset a gauge, by its name: pressure of the water, Pa; 0 where there is none
 //   /lgiw/diagnostics: attribute Count (nd); time float64 [nd], and one float64 [nd] dataset a quantity (the columns of the

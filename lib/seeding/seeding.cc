@@ -170,7 +170,7 @@ void Seeder::Parts::describe() {
   header.origin = model.origin;
   header.crs_wkt = model.crs_wkt;
   header.vertical_datum = c.terrain.vertical_datum;
-  header.attribution = terrain_attribution(c.text);
+  header.attribution = terrain_attribution(c.terrain);
   header.still_water_level = c.water.present ? model.still_water_level : std::numeric_limits<double>::quiet_NaN();
   header.sound_speed = water_sound_speed(c, report.max_water_depth, report.slide_drop_height, body_speed);
   header.sides = {c.terrain.west, c.terrain.east, c.terrain.south, c.terrain.north};

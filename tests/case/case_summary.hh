@@ -20,7 +20,7 @@ inline std::string case_summary(const Case& c) {
   field(c.name, c.dimension, c.dp, c.gravity[0], c.gravity[1], c.gravity[2]);
   const Terrain& t = c.terrain;
   field(t.crs, t.vertical_datum, t.fill_voids, t.spike_threshold, t.remove_spikes, t.width);
-  for (const TerrainSource& s : t.sources) field(s.file, s.blend, s.vertical_shift);
+  for (const TerrainSource& s : t.sources) field(s.file, s.blend, s.vertical_shift, s.attribution);
   if (t.window) field((*t.window)[0], (*t.window)[1], (*t.window)[2], (*t.window)[3]);
   points(t.profile);
   field(int(t.west), int(t.east), int(t.south), int(t.north), t.absorbing_width, t.wall_top, t.reach_angle,

@@ -35,7 +35,7 @@ TEST(Case, MinimalCaseHasTheDefaultsOfTheHeader) {
   Case expected;
   expected.name = "canyon";
   expected.dp = 12;
-  expected.terrain.sources = {TerrainSource{"dem.tif", 0, 0}};
+  expected.terrain.sources = {TerrainSource{"dem.tif", 0, 0, ""}};
   expected.water.present = true;
   expected.water.level = 740;
   expected.water.seed = Point2{390700, 3795400};
@@ -133,7 +133,7 @@ deposit: {adps_threshold: 0.1}
   EXPECT_EQ(c.dp, 12.5);
   EXPECT_EQ(c.gravity[2], -9.8);
   ASSERT_EQ(c.terrain.sources.size(), 4u);
-  EXPECT_EQ(terrain_attribution(c.text), "Office: <A> & B, CC BY 4.0; SRTM");
+  EXPECT_EQ(terrain_attribution(c.terrain), "Office: <A> & B, CC BY 4.0; SRTM");
   EXPECT_EQ(c.terrain.sources[0].blend, 0);
   EXPECT_EQ(c.terrain.sources[1].file, "sub/fine.tif");
   EXPECT_EQ(c.terrain.sources[1].blend, 90);

@@ -50,7 +50,7 @@ Case case_with(const std::string& file) {
   c.name = "hostile";
   c.dp = 10;
   c.terrain.crs = "EPSG:32611";
-  c.terrain.sources = {TerrainSource{file, 0, 0}};
+  c.terrain.sources = {TerrainSource{file, 0, 0, ""}};
   c.water.present = true;
   c.water.level = 10;
   c.water.seed = Point2{45, 105};
