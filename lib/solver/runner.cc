@@ -99,6 +99,13 @@ std::unique_ptr<Simulation> make_simulation(const Case& c, const ModelParameters
   return make_cpu_simulation(model, in, type);
 }
 
+/// What a run is warned of beforehand: its resolution first, then where it is outside of the envelope.
+std::vector<std::string> warnings_beforehand(const Resolution& resolution, const std::vector<std::string>& outside) {
+  std::vector<std::string> warnings = warnings_of(resolution);
+  warnings.insert(warnings.end(), outside.begin(), outside.end());
+  return warnings;
+}
+
 SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
   SurfaceMap m;
   m.dx = c.output.map_spacing > 0 ? c.output.map_spacing : h.dp;
@@ -145,9 +152,8 @@ class Runner {
     for (const std::string& line : simulation_->left_out()) log("left out: " + line);
     resolution_ = resolution_of(c, data);
     log(text_of(resolution_));
-    warnings_ = warnings_of(resolution_);
     outside_ = warnings_of(envelope_of(c, model_));
-    warnings_.insert(warnings_.end(), outside_.begin(), outside_.end());
+    warnings_ = warnings_beforehand(resolution_, outside_);
     for (const std::string& warning : warnings_) log("warning: " + warning);
   }
 
@@ -736,9 +742,7 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["particle_steps_per_s_assumed"] = particle_steps_per_s;
   j["resolution"] = json_of(resolution);
   const std::vector<EnvelopeAxis> envelope = envelope_of(c, p);
-  std::vector<std::string> warnings = warnings_of(resolution);
-  for (const std::string& warning : warnings_of(envelope)) warnings.push_back(warning);
-  j["warnings"] = warnings;
+  j["warnings"] = warnings_beforehand(resolution, warnings_of(envelope));
   j["envelope"] = json_of(envelope);
   j["expected_error"] = expected_error(resolution.slide_median, resolution.deepest_water).text;
   return j.dump(1);
