@@ -5,7 +5,7 @@
 
 #include "base/error.hh"
 #include "basin.hh"
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 #include "measure/section_profiles.hh"
 
 namespace lgiw {
