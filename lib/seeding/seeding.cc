@@ -16,7 +16,7 @@
 #include "seeding/outline_filling.hh"
 #include "seeding/packing.hh"
 #include "seeding/phase_columns.hh"
-#include "seeding/polygon.hh"
+#include "case/polygon.hh"
 #include "seeding/walls.hh"
 
 namespace lgiw {
