@@ -716,14 +716,11 @@ std::string checkpoint_path(const std::string& output) { return output + ".check
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s) {
   const ModelParameters p = make_model(c, data);
   const auto simulation = make_cpu_simulation(p, make_particles(c, data), number_type(c.numerics.precision));
-  double wave = p.sound_speed, alpha_c = p.water_alpha * p.sound_speed;
-  if (data.soil.size()) {
-    const double soil = SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density);
-    wave = std::max(wave, soil), alpha_c = std::max(alpha_c, p.soil_alpha * soil);
-  }
+  double wave = p.sound_speed;
+  if (data.soil.size())
+    wave = std::max(wave, SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density));
   // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
-  const double dt =
-      std::min(simulation->state().dt, p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30)));
+  const double dt = std::min(simulation->state().dt, p.cfl * p.h / (1.1 * wave));
   const double steps = (c.output.end_time + p.settle_time) / dt;
   if (!(particle_steps_per_s > 0))
     particle_steps_per_s = particle_rate(c.dimension, data.soil.size() > 0, omp_get_max_threads());
