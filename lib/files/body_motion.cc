@@ -1,32 +1,17 @@
 #include "files/body_motion.hh"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "base/error.hh"
+#include "files/csv_table.hh"
 
 namespace lgiw {
 
 namespace {
 
 constexpr double at_rest = 1e-6;  // m and rad: what may be left of the motion at t = 0
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  for (std::size_t begin = 0, comma = 0; comma != std::string::npos; begin = comma + 1) {
-    comma = line.find(',', begin);
-    fields.push_back(trimmed(line.substr(begin, comma == std::string::npos ? comma : comma - begin)));
-  }
-  return fields;
-}
 
 double interpolated(const std::vector<double>& times, double time, const std::vector<double>& values) {
   const auto after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
@@ -39,60 +24,33 @@ double interpolated(const std::vector<double>& times, double time, const std::ve
 }  // namespace
 
 BodyMotion read_motion_csv(const std::string& path, int dimension) {
-  std::ifstream file(path);
-  LGIW_VALIDATE(file.good(), path + " cannot be opened", "a motion file is needed", "check its name and permissions");
+  const CsvText table = read_csv(path);
   const std::vector<std::vector<std::string>> headers{{"t_s", "dx_m", "dz_m"},
                                                       {"t_s", "dx_m", "dz_m", "pitch_deg"},
                                                       {"t_s", "dx_m", "dy_m", "dz_m"},
                                                       {"t_s", "dx_m", "dy_m", "dz_m", "pitch_deg"}};
+  LGIW_VALIDATE(std::find(headers.begin(), headers.end(), table.header) != headers.end(),
+                path + ":" + std::to_string(table.header_line) + ": not the header of a motion",
+                "the columns are told by their names",
+                "write t_s,dx_m,dz_m[,pitch_deg] or t_s,dx_m,dy_m,dz_m[,pitch_deg]");
   BodyMotion motion;
-  std::vector<std::string> header;
-  int number = 0;
-  std::string line;
-  const auto refuse = [&](const std::string& problem, const std::string& why, const std::string& suggestion) {
-    throw InputError(path + ":" + std::to_string(number) + ": " + problem, why, suggestion);
-  };
-  while (std::getline(file, line)) {
-    ++number;
-    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
-    const std::vector<std::string> fields = fields_of(line);
-    if (header.empty()) {
-      if (std::find(headers.begin(), headers.end(), fields) == headers.end())
-        refuse("not the header of a motion", "the columns are told by their names",
-               "write t_s,dx_m,dz_m[,pitch_deg] or t_s,dx_m,dy_m,dz_m[,pitch_deg]");
-      header = fields;
-      continue;
-    }
-    if (fields.size() != header.size())
-      refuse("the row has " + std::to_string(fields.size()) + " columns",
-             "the header has " + std::to_string(header.size()), "give each row all columns");
-    double time = 0, pitch = 0;
-    std::array<double, 3> place{0, 0, 0};
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-      double value = 0;
-      const char *begin = fields[k].data(), *end = begin + fields[k].size();
-      if (fields[k].size() > 1 && begin[0] == '+' && begin[1] != '-') ++begin;  // from_chars takes no plus sign
-      const auto [stop, error] = std::from_chars(begin, end, value);
-      if (error != std::errc() || stop != end || !std::isfinite(value))
-        refuse(header[k] + " is \"" + fields[k].substr(0, 40) + "\"", "a finite number is wanted", "write a number");
-      if (header[k] == "t_s") time = value;
-      if (header[k] == "pitch_deg") pitch = value * std::numbers::pi / 180;
-      if (header[k].size() == 4 && header[k][0] == 'd') place[std::size_t(header[k][1] - 'x')] = value;
-    }
-    if (motion.time.empty() && time > 0)
-      refuse("the first time is " + fields[0] + " s", "the motion must be known from t = 0 on",
-             "begin with a row at t_s = 0 or before");
-    if (!motion.time.empty() && time <= motion.time.back())
-      refuse("the time " + fields[0] + " s does not rise", "a body is at one place at a time", "sort the rows by t_s");
-    if (dimension == 2 && place[1] != 0)
-      refuse("dy_m is " + fields[2], "a 2-D scene lies in (x, z)", "leave the column dy_m out");
-    motion.time.push_back(time), motion.pitch.push_back(pitch), motion.displacement.push_back(place);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto number = [&](const char* heading) {
+      const std::size_t column = table.column(heading);
+      return column < table.header.size() ? table.given_number(row, column) : 0.0;
+    };
+    const double time = number("t_s");
+    const std::array<double, 3> place{number("dx_m"), number("dy_m"), number("dz_m")};
+    LGIW_VALIDATE(row > 0 || time <= 0, table.place(row) + ": the first time is " + table.rows[row][0] + " s",
+                  "the motion must be known from t = 0 on", "begin with a row at t_s = 0 or before");
+    LGIW_VALIDATE(row == 0 || time > motion.time.back(),
+                  table.place(row) + ": the time " + table.rows[row][0] + " s does not rise",
+                  "a body is at one place at a time", "sort the rows by t_s");
+    LGIW_VALIDATE(dimension == 3 || place[1] == 0, table.place(row) + ": dy_m is " + table.rows[row][2],
+                  "a 2-D scene lies in (x, z)", "leave the column dy_m out");
+    motion.time.push_back(time), motion.displacement.push_back(place);
+    motion.pitch.push_back(number("pitch_deg") * std::numbers::pi / 180);
   }
-  // getline() also ends for folders and failing disks.
-  LGIW_VALIDATE(file.eof() && !file.bad(), path + " cannot be read", "it is no text file or the disk fails",
-                "name a CSV file");
-  if (motion.time.empty())
-    refuse("the motion has no rows", "a body moves from row to row", "add rows with t_s,dx_m,dz_m");
   for (int axis = 0; axis < 4; ++axis) {
     std::vector<double> values = motion.pitch;
     if (axis < 3)

@@ -20,14 +20,14 @@ struct BodyMotion {
   std::vector<std::array<double, 3>> displacement;  // m, of the pivot
 };
 
-/// Reads time, displacement and pitch from a CSV file with one of these headers (the pitch may be left out, and is 0):
-/// t_s,dx_m,dz_m,pitch_deg or t_s,dx_m,dy_m,dz_m,pitch_deg. Lines that begin with # are comments. Name, pivot and
-/// heading stay as they are by default.
+/// Reads time, displacement and pitch from a CSV file (csv_table.hh) with one of these headers (the pitch may be left
+/// out, and is 0): t_s,dx_m,dz_m,pitch_deg or t_s,dx_m,dy_m,dz_m,pitch_deg. Name, pivot and heading stay as they are by
+/// default.
 ///
-/// Throws InputError with `path:line` for files that cannot be read, another header, rows of another length, what is
-/// no finite number, times that do not rise or begin after 0, and motions that are not at rest at the place at t = 0:
-/// displacement and pitch must pass through 0 there, since the case says where the body is at t = 0. With dimension 2
-/// also for a dy_m that is not 0.
+/// Throws InputError, of a row with `path:line`, for what is no such table, another header, missing numbers, times that
+/// do not rise or begin after 0, and motions that are not at rest at the place at t = 0: displacement and pitch must
+/// pass through 0 there, since the case says where the body is at t = 0. With dimension 2 also for a dy_m that is not
+/// 0.
 BodyMotion read_motion_csv(const std::string& path, int dimension);
 
 /// What is wrong with a motion ("" where nothing is): numbers that are not finite, lists of different lengths or empty,

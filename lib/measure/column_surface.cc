@@ -619,16 +619,21 @@ ColumnSurfaces column_surfaces(const ColumnParticles& particles, const SurfaceMa
   return ColumnSurfaceMap(map, bed)(particles);
 }
 
-ColumnParticles column_particles(const ParticleHeader& header, const Frame& frame) {
+ColumnParticles column_particles(const ParticleHeader& header) {
   ColumnParticles columns;
   columns.dimension = header.dimension, columns.dp = header.dp, columns.h = 1.5 * header.dp;
   columns.n_water = std::size_t(header.counts.water), columns.n_soil = std::size_t(header.counts.soil);
-  columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
   for (std::size_t side = 0; side < 4; ++side) {
     if (header.sides[side] == Side::open || (side >= 2 && header.dimension == 2)) continue;
     (side % 2 ? columns.wall_high : columns.wall_low)[side / 2] =
         side % 2 ? header.high[side / 2] : header.low[side / 2];
   }
+  return columns;
+}
+
+ColumnParticles column_particles(const ParticleHeader& header, const Frame& frame) {
+  ColumnParticles columns = column_particles(header);
+  columns.xyz = frame.points.data(), columns.velocity = frame.velocity.data(), columns.lost = frame.lost.data();
   return columns;
 }
 

@@ -27,7 +27,9 @@ struct ColumnParticles {
   std::array<double, 2> wall_high{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 
-/// Those of a frame, between the sides of the domain that are walls. Refers to the frame.
+/// As a particles file says, between the sides of the domain that are walls, without the particles themselves.
+ColumnParticles column_particles(const ParticleHeader& header);
+/// With those of a frame, to which it refers.
 ColumnParticles column_particles(const ParticleHeader& header, const Frame& frame);
 
 struct ColumnSurfaces {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 #include "measure/norms.hh"
 #include "measure/reference_data.hh"
 

@@ -18,14 +18,6 @@ std::string column_list(const CsvText& table) {
   return names + (table.header.size() > 12 ? " ..." : "");
 }
 
-/// A cell that must hold a number.
-double given_number(const CsvText& table, std::size_t row, std::size_t column) {
-  const double value = table.number(row, column);
-  LGIW_VALIDATE(!std::isnan(value), table.place(row) + ": " + table.header[column] + " is missing",
-                "every row needs it", "give it, or leave out the row");
-  return value;
-}
-
 }  // namespace
 
 SeriesReference series_reference(const CsvText& table) {
@@ -39,7 +31,7 @@ SeriesReference series_reference(const CsvText& table) {
     reference.series.push_back({table.header[column], {}});
   double before = -HUGE_VAL;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const double time = given_number(table, row, 0);
+    const double time = table.given_number(row, 0);
     LGIW_VALIDATE(time > before, table.place(row) + ": time " + table.rows[row][0] + " does not rise",
                   "times are in order, each once", "sort the rows by time");
     before = time;
@@ -72,8 +64,8 @@ std::vector<ProfileReference> profile_references(const CsvText& table) {
     auto profile = std::find_if(profiles.begin(), profiles.end(), [&](const auto& p) { return p.section == name; });
     if (profile == profiles.end())
       profile = profiles.insert(profiles.end(), {table.name, distance != none, name, {}, {}});
-    profile->distance.push_back(given_number(table, row, along));
-    profile->elevation.push_back(given_number(table, row, z));
+    profile->distance.push_back(table.given_number(row, along));
+    profile->elevation.push_back(table.given_number(row, z));
   }
   for (ProfileReference& p : profiles) {
     LGIW_VALIDATE(p.distance.size() >= 2,

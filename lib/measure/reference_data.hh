@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 #include "measure/norms.hh"
 
 namespace lgiw {

@@ -51,11 +51,8 @@ double slip_elevation(const std::vector<Neighbour>& neighbours, double bed, doub
 std::vector<SectionProfile> section_profiles(const RunHeader& header, const Frame& frame,
                                              const std::vector<Section>& sections, double adps_threshold) {
   const ParticleHeader& p = header.particles;
-  ColumnParticles particles;
-  particles.dimension = p.dimension, particles.dp = p.dp, particles.h = 1.5 * p.dp;
-  particles.n_water = std::size_t(p.counts.water), particles.n_soil = std::size_t(p.counts.soil);
-  particles.xyz = frame.points.data(), particles.lost = frame.lost.data();
-  particles.wall_low = {p.low[0], p.low[1]}, particles.wall_high = {p.high[0], p.high[1]};
+  ColumnParticles particles = column_particles(p, frame);
+  particles.velocity = nullptr;  // of no use here
   const ColumnSurfaces surfaces = column_surfaces(particles, header.map, p.bed);
   const bool flat = p.dimension == 2;
   const double reach = 3 * p.dp;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "case/polygon.hh"
+#include "physics/rigid_motion.hh"
+
 namespace lgiw {
 namespace {
 
@@ -12,15 +15,6 @@ constexpr double degree = std::numbers::pi / 180;
 /// The `share` quantile of sorted values.
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::size_t(std::lround(share * double(sorted.size() - 1)))];
-}
-
-bool in_polygon(const std::vector<Point2>& polygon, double x, double z) {
-  bool inside = false;
-  for (std::size_t k = 0, last = polygon.size() - 1; k < polygon.size(); last = k++) {
-    const auto &p = polygon[k], &q = polygon[last];
-    if ((p[1] > z) != (q[1] > z) && x < p[0] + (z - p[1]) / (q[1] - p[1]) * (q[0] - p[0])) inside = !inside;
-  }
-  return inside;
 }
 
 /// Middles of cells of `dp` that lie in an outline (x, z in the case's CRS), in 3-D over the whole width; local, [n,3].
@@ -32,7 +26,7 @@ void fill_outline(std::vector<double>& points, const std::vector<Point2>& outlin
   const bool flat = header.dimension == 2;
   for (double x = low[0] + dp / 2; x < high[0]; x += dp)
     for (double z = low[1] + dp / 2; z < high[1]; z += dp) {
-      if (!in_polygon(outline, x, z)) continue;
+      if (!contains(outline, {x, z})) continue;
       for (double y = flat ? 0 : header.low[1] + dp / 2; y < (flat ? 1 : header.high[1]); y += flat ? 1 : dp)
         points.insert(points.end(), {x - header.origin[0], y, z - header.origin[2]});
     }
@@ -65,16 +59,15 @@ SlideEntry body_entry(const ParticleHeader& header, const BodyMotion& motion, co
   const double ahead[2] = {std::sin(motion.heading * degree), std::cos(motion.heading * degree)};
   SlideEntryRecorder recorder(header, header.dp, std::pow(header.dp, header.dimension));
   const auto placed = [&](std::size_t row) {
-    std::vector<float> points(start.size());
-    const double cosine = std::cos(motion.pitch[row]), sine = std::sin(motion.pitch[row]);
+    const std::array<double, 3>& way = motion.displacement[row];
+    const MotionRow only{motion.time[row], {way[0], way[1], way[2], motion.pitch[row]}, {}, {}};
+    const RigidState state = rigid_state(&only, 1, motion.pivot.data(), motion.time[row]);
+    std::vector<float> points;
     for (std::size_t p = 0; p < start.size(); p += 3) {
-      double arm[3];
+      double arm[3], place[3], velocity[3], acceleration[3];
       for (int a = 0; a < 3; ++a) arm[a] = start[p + a] - motion.pivot[a];
-      const double along = arm[0] * ahead[0] + arm[1] * ahead[1];
-      const double turned = along * cosine + arm[2] * sine;
-      for (int a = 0; a < 2; ++a)
-        points[p + a] = float(motion.pivot[a] + motion.displacement[row][a] + arm[a] + (turned - along) * ahead[a]);
-      points[p + 2] = float(motion.pivot[2] + motion.displacement[row][2] - along * sine + arm[2] * cosine);
+      rigid_point(state, ahead[0], ahead[1], arm, place, velocity, acceleration);
+      points.insert(points.end(), {float(place[0]), float(place[1]), float(place[2])});
     }
     return points;
   };

@@ -7,7 +7,7 @@
 
 #include "base/provenance.hh"
 #include "base/tool_main.hh"
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 
 namespace lgiw {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seeding/polygon.hh"
+#include "case/polygon.hh"
 
 namespace lgiw {
 

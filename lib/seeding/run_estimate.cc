@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "physics/soil.hh"
 #include "physics/time_step.hh"
 
 namespace lgiw {
@@ -74,22 +75,41 @@ ErrorClass expected_error(std::optional<double> slide_particles, std::optional<d
 
 double soil_sound_speed(const Case& c) {
   if (!c.has_soil()) return 0;
-  const double e = c.soil.young_modulus, nu = c.soil.poisson_ratio;
-  const double bulk = e / (3 * (1 - 2 * nu)), shear = e / (2 * (1 + nu));
-  return std::sqrt((bulk + 4 * shear / 3) / c.soil.density);
+  return SoilMaterial<double>::wave_speed(c.soil.young_modulus, c.soil.poisson_ratio, c.soil.density);
 }
 
-RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double rate) {
+double usual_soil_alpha(double gravity, double height, double wave_speed) {
+  return 3 * std::sqrt(gravity * height) / wave_speed;
+}
+
+StepEstimate estimate_step(const Case& c, double sound_speed, double soil_height, double mu, double acceleration) {
+  const double soil_speed = soil_sound_speed(c), wave = std::max(sound_speed, soil_speed);
+  const double h = c.numerics.h_over_dp * c.dp;
+  const bool verlet = c.numerics.integrator == Integrator::verlet;
+  StepEstimate step{c.numerics.cfl * h / std::max(wave + mu, 1e-9), 0};
+  const auto limit = [&step](double dt, int condition) {
+    if (dt < step.dt) step = {dt, condition};
+  };
+  if (acceleration > 0) limit(c.numerics.cfl * std::sqrt(h / acceleration), 1);
+  double viscous = c.water.viscosity_alpha * sound_speed, diffusive = c.water.density_diffusion * sound_speed;
+  if (c.has_soil()) {
+    const double g = std::hypot(c.gravity[0], c.gravity[1], c.gravity[2]);
+    const double alpha =
+        c.soil.viscosity_alpha > 0 ? c.soil.viscosity_alpha : usual_soil_alpha(g, soil_height, soil_speed);
+    viscous = std::max(viscous, alpha * soil_speed);
+    diffusive = std::max(diffusive, c.soil.stress_diffusion * soil_speed);
+  }
+  if (viscous > 0) limit(std::min(c.numerics.cfl, viscous_limit(verlet)) * h / viscous, 2);
+  if (diffusive > 0) limit(diffusive_limit(verlet) * h / diffusive, 3);
+  return step;
+}
+
+RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double soil_height,
+                         double rate) {
   RunEstimate estimate;
-  const double h = c.numerics.h_over_dp * c.dp, fastest = std::max(sound_speed, soil_sound_speed(c));
-  const double speed = 0.1 * (sound_speed > 0 ? sound_speed : fastest);
-  estimate.time_step =
-      c.numerics.cfl * std::min(std::sqrt(h / std::abs(c.gravity[2])), h / std::max(fastest + speed, 1e-9));
-  const double diffusion = std::max(c.water.density_diffusion * sound_speed,
-                                    c.has_soil() ? c.soil.stress_diffusion * soil_sound_speed(c) : 0.0);
-  if (diffusion > 0)
-    estimate.time_step =
-        std::min(estimate.time_step, diffusive_limit(c.numerics.integrator == Integrator::verlet) * h / diffusion);
+  const double flow = 0.1 * (sound_speed > 0 ? sound_speed : soil_sound_speed(c));
+  const double g = std::hypot(c.gravity[0], c.gravity[1], c.gravity[2]);
+  estimate.time_step = estimate_step(c, sound_speed, soil_height, flow, g).dt;
   estimate.steps = std::ceil((c.output.end_time + c.numerics.settle_time) / estimate.time_step);
   estimate.run_time = estimate.steps * double(counts.total()) / rate;
 

@@ -24,10 +24,25 @@ double particle_rate(int dimension, bool soil, int threads);
 /// Elastic P-wave speed of the soil, sqrt((K + 4/3 G) / rho), m/s; 0 without soil.
 double soil_sound_speed(const Case& c);
 
-/// Time step from physics.md section 9 with the largest speed to be expected (a tenth of the water's sound speed) for
-/// mu: C min(sqrt(h/g), h/(max(c_w, c_s) + v)). `rate` in particle-steps a second. Memory from the fields that the
-/// solver holds by phase and precision.
-RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double rate);
+/// Coefficient of artificial viscosity of soil `height` m high where the case gives none (physics.md section 3).
+double usual_soil_alpha(double gravity, double height, double wave_speed);
+
+/// A time step, s, and which condition limits it: 0 acoustic, 1 force, 2 viscous, 3 diffusive.
+struct StepEstimate {
+  double dt;
+  int limit;
+};
+
+/// What finish_step() of the solver (passes.hh) comes to. `sound_speed` of the water, m/s, 0 without any;
+/// `soil_height`: of the highest column of soil, m; `mu`: the largest |mu_ij| of the artificial viscosity, m/s;
+/// `acceleration`: the largest, m/s2.
+StepEstimate estimate_step(const Case& c, double sound_speed, double soil_height, double mu, double acceleration);
+
+/// Time step with the largest speed to be expected (a tenth of the water's sound speed) for mu and
+/// gravity for the acceleration. `rate` in particle-steps a second. Memory from the fields that the solver holds by
+/// phase and precision.
+RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double soil_height,
+                         double rate);
 
 /// What was measured against a reference with at least so many particles across the slide's thickness or the deepest
 /// water; absent where there are fewer than in any measurement, or nothing to count.

@@ -16,7 +16,7 @@
 #include "seeding/outline_filling.hh"
 #include "seeding/packing.hh"
 #include "seeding/phase_columns.hh"
-#include "seeding/polygon.hh"
+#include "case/polygon.hh"
 #include "seeding/walls.hh"
 
 namespace lgiw {
@@ -652,6 +652,7 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
     parts_->report.median_soil_column = double(particles);
     if (2 * (thinner += number) >= columns_with_soil) break;
   }
+  if (columns_with_soil > 0) parts_->report.greatest_soil_column = double(sum.soil_columns.rbegin()->first);
   LGIW_VALIDATE(sum.counts.total() <= most_particles, "too many particles: " + std::to_string(sum.counts.total()),
                 "at most 2e9 can be numbered", "Choose a larger dp or a smaller terrain.window.");
   return parts_->report;

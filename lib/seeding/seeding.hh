@@ -23,7 +23,8 @@ struct SeedingReport {
                                                               // to the bed, below submerged soil too
   double greatest_depth = 0;                                  // m; of the water itself
   double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
-  double median_soil_column = 0;  // particles: median over the columns, one dp wide, that hold soil
+  // Particles: over the columns, one dp wide, that hold soil.
+  double median_soil_column = 0, greatest_soil_column = 0;
 };
 
 /// Places the particles of a case: water and soil on a common lattice of spacing dp, walls as lib/seeding/walls.hh has

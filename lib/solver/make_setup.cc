@@ -8,6 +8,7 @@
 #include "physics/kernel.hh"
 #include "physics/soil.hh"
 #include "physics/water.hh"
+#include "seeding/run_estimate.hh"
 
 namespace lgiw {
 namespace {
@@ -157,7 +158,7 @@ ModelParameters make_model(const Case& c, const ParticleData& data) {
     const double extent = std::max(greatest_extent(data.soil), header.dp);
     p.soil_settle_rate = pi * wave / extent;
     if (p.settle_soil) p.settle_time = 5 * extent / wave;
-    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : 3 * std::sqrt(g * p.soil_height) / wave;
+    p.soil_alpha = s.viscosity_alpha > 0 ? s.viscosity_alpha : usual_soil_alpha(g, p.soil_height, wave);
   }
   p.velocity_factor = c.interface.velocity_factor;
   p.repulsion = c.interface.repulsion;

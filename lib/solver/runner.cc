@@ -99,6 +99,13 @@ std::unique_ptr<Simulation> make_simulation(const Case& c, const ModelParameters
   return make_cpu_simulation(model, in, type);
 }
 
+/// What a run is warned of beforehand: its resolution first, then where it is outside of the envelope.
+std::vector<std::string> warnings_beforehand(const Resolution& resolution, const std::vector<std::string>& outside) {
+  std::vector<std::string> warnings = warnings_of(resolution);
+  warnings.insert(warnings.end(), outside.begin(), outside.end());
+  return warnings;
+}
+
 SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
   SurfaceMap m;
   m.dx = c.output.map_spacing > 0 ? c.output.map_spacing : h.dp;
@@ -145,9 +152,8 @@ class Runner {
     for (const std::string& line : simulation_->left_out()) log("left out: " + line);
     resolution_ = resolution_of(c, data);
     log(text_of(resolution_));
-    warnings_ = warnings_of(resolution_);
     outside_ = warnings_of(envelope_of(c, model_));
-    warnings_.insert(warnings_.end(), outside_.begin(), outside_.end());
+    warnings_ = warnings_beforehand(resolution_, outside_);
     for (const std::string& warning : warnings_) log("warning: " + warning);
   }
 
@@ -710,14 +716,11 @@ std::string checkpoint_path(const std::string& output) { return output + ".check
 std::string plan_json(const Case& c, const ParticleData& data, double particle_steps_per_s) {
   const ModelParameters p = make_model(c, data);
   const auto simulation = make_cpu_simulation(p, make_particles(c, data), number_type(c.numerics.precision));
-  double wave = p.sound_speed, alpha_c = p.water_alpha * p.sound_speed;
-  if (data.soil.size()) {
-    const double soil = SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density);
-    wave = std::max(wave, soil), alpha_c = std::max(alpha_c, p.soil_alpha * soil);
-  }
+  double wave = p.sound_speed;
+  if (data.soil.size())
+    wave = std::max(wave, SoilMaterial<double>::wave_speed(p.young_modulus, p.poisson_ratio, p.soil_density));
   // A tenth of the wave speed is what flow adds to the acoustic condition in a run that keeps its Mach number.
-  const double dt =
-      std::min(simulation->state().dt, p.cfl * std::min(p.h / (1.1 * wave), p.h / std::max(alpha_c, 1e-30)));
+  const double dt = std::min(simulation->state().dt, p.cfl * p.h / (1.1 * wave));
   const double steps = (c.output.end_time + p.settle_time) / dt;
   if (!(particle_steps_per_s > 0))
     particle_steps_per_s = particle_rate(c.dimension, data.soil.size() > 0, omp_get_max_threads());
@@ -736,9 +739,7 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
   j["particle_steps_per_s_assumed"] = particle_steps_per_s;
   j["resolution"] = json_of(resolution);
   const std::vector<EnvelopeAxis> envelope = envelope_of(c, p);
-  std::vector<std::string> warnings = warnings_of(resolution);
-  for (const std::string& warning : warnings_of(envelope)) warnings.push_back(warning);
-  j["warnings"] = warnings;
+  j["warnings"] = warnings_beforehand(resolution, warnings_of(envelope));
   j["envelope"] = json_of(envelope);
   j["expected_error"] = expected_error(resolution.slide_median, resolution.deepest_water).text;
   return j.dump(1);

@@ -13,10 +13,12 @@ map_height(width) = int(width * 0.77 * (y1 - y0) / (x1 - x0))
 light(s) = 60 + 0.62 * s
 hillshade = work."/hillshade.xyz"
 present(file) = int(system(sprintf("test -s '%s' && echo 1 || echo 0", file)))
-# Gauges as x, y, name; ends of sections as x, y, name.
+# Gauges as x, y, name; sections as x, y, name, and their ends. Profiles have a section once a time; the first one is enough.
 gauge_points(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {print $3, $4, $1}' '%s'", file)
-section_lines(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {if (n > 2 && $1 != s) print \"\"; print $4, $5; s = $1}' '%s'", file)
-section_ends(file) = sprintf("< awk -F, '!/^#/ && ++n > 1 {if ($1 != s) {if (s) print p; print $4, $5, $1} s = $1; p = $4 \" \" $5 \" \" $1 \"\\047\"} END {print p}' '%s'", file)
+of_first_time = "/^#/ || ++n == 1 {next} n == 2 {t = $2} $2 != t {next} "
+section_lines(file) = sprintf("< awk -F, '%s n > 2 && $1 != s {print \"\"} {print $4, $5; s = $1}' '%s'", of_first_time, file)
+section_ends(file) = sprintf("< awk -F, '%s $1 != s {if (s) print p; print $4, $5, $1} {s = $1; p = $4 \" \" $5 \" \" $1 \"\\047\"} END {print p}' '%s'", \
+  of_first_time, file)
 # Labels of points in the easternmost `part` of the map stand west of these. Of the points on one side, every `step`th from `k` on;
 # a point far outside stands for none, as gnuplot warns of empty data.
 side(points, sign, part, step, k) = sprintf("%s | awk '$1 %s %.3f && n++ %% %d == %d {found = 1; print} END {if (!found) print 1e9, 1e9, 0, 0}'", \

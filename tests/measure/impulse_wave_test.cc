@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 #include "measuring_tools.hh"
 
 namespace lgiw::test {

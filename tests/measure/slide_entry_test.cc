@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../tools/tool_runner.hh"
 #include "basin.hh"
 #include "measure/section_runup.hh"
 
@@ -120,6 +121,36 @@ TEST(SlideEntry, ABlockThatFallsFromAboveTheLake) {
   EXPECT_NEAR(entry.thickness, 10, 0.2);  // across its way: the width of the block
   EXPECT_NEAR(entry.x, 1205, 1e-3);
   EXPECT_NEAR(entry.drop, 20, 1e-4);
+}
+
+TEST(SlideEntry, ABodyThatTurnsAboutItsPivotIntoTheLake) {
+  // A bar of 20 m by 1 m that lies 1 m above the lake turns with 0.2 rad/s about the end of its lower edge 1 m below:
+  // a piece at (x, 1.5) sinks at atan(1.5 / x), with 0.2 of its distance from the pivot a second.
+  const Workshop shop;
+  RunHeader header;
+  header.particles = slope(2);
+  header.particles.counts.water = 1;
+  header.particle_volume = 1;
+  header.map = {2, 1, 0, 0, 1};
+  header.left_out = "[]";
+  BodyMotion motion;
+  motion.name = "bar", motion.pivot = {200, 0, 0};
+  for (int k = 0; k <= 200; ++k)
+    motion.time.push_back(0.04 * k), motion.pitch.push_back(0.2 * 0.04 * k), motion.displacement.push_back({0, 0, 0});
+  header.particles.bodies = {motion};
+  const std::string path = (shop / "run.h5").string();
+  RunWriter(path, header).close();
+  Case c;
+  c.dimension = 2;
+  c.bodies.resize(1);
+  c.bodies[0].outline = {{1200, 501}, {1220, 501}, {1220, 502}, {1200, 502}};
+  const SlideEntry entry = measure_slide_entry(RunReader(path), c);
+  double speed = 0;
+  for (int k = 0; k < 20; ++k) speed += 0.2 * std::hypot(k + 0.5, 1.5) / 20;
+  EXPECT_EQ(entry.volume, 20);
+  EXPECT_NEAR(entry.speed, speed, 1e-3 * speed);
+  EXPECT_NEAR(entry.drop, 1.5, 1e-6);
+  EXPECT_EQ(entry.ahead[0], 1);
 }
 
 TEST(SlideEntry, DepthIsTheDeepestThatIsNotTooFarAway) {

@@ -5,7 +5,8 @@
 
 #include "base/error.hh"
 #include "basin.hh"
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
+#include "measure/column_surface.hh"
 #include "measure/section_profiles.hh"
 
 namespace lgiw {
@@ -118,27 +119,34 @@ TEST(SlideHistory, ThicknessSumsToTheVolume) {
   EXPECT_TRUE(std::isnan(thickness[10 * 51 + 22]));
 }
 
-TEST(SectionProfiles, SurfacesAndSlipLineThroughALayeredBlock) {
-  // 24 m of soil on a flat bed, of which the upper 12 m slide: the strain jumps from 0 to 1 at z = 12, so that its
-  // mean crosses one half there.
-  RunHeader header = basin_header();
-  for (double& z : header.particles.bed.z) z = 0;
-  header.particles.ground = header.particles.bed;
-  header.particles.counts.water = 0;
-  header.initial_soil.clear();
+/// 24 m of soil on a flat bed, 40 m by 40 m from the domain's corner on, of which the upper 12 m slide: the strain
+/// jumps from 0 to 1 at z = 12, so that its mean crosses one half there.
+struct LayeredBlock {
+  LayeredBlock() : header(basin_header()) {
+    for (double& z : header.particles.bed.z) z = 0;
+    header.particles.ground = header.particles.bed;
+    header.particles.counts.water = 0;
+    for (int k = 0; k < 12; ++k)
+      for (int j = 0; j < 20; ++j)
+        for (int i = 0; i < 20; ++i) {
+          frame.points.insert(frame.points.end(), {float(2 * i + 1), float(2 * j + 1), float(2 * k + 1)});
+          frame.adps.push_back(k < 6 ? 0 : 1);
+          frame.lost.push_back(0);
+        }
+    header.particles.counts.soil = int64_t(frame.adps.size());
+    header.initial_soil = frame.points;
+    frame.velocity.assign(frame.points.size(), 0);
+  }
+  SectionProfile profile(double x0) const {
+    return section_profiles(header, frame, {{"A", {{x0, 20}, {1096, 20}}}}, 0.5).at(0);
+  }
+  RunHeader header;
   Frame frame;
-  for (int k = 0; k < 12; ++k)
-    for (int j = 0; j < 20; ++j)
-      for (int i = 0; i < 20; ++i) {
-        frame.points.insert(frame.points.end(), {float(2 * i + 1), float(2 * j + 1), float(2 * k + 1)});
-        frame.adps.push_back(k < 6 ? 0 : 1);
-        frame.lost.push_back(0);
-      }
-  header.particles.counts.soil = int64_t(frame.adps.size());
-  header.initial_soil = frame.points;
-  frame.velocity.assign(frame.points.size(), 0);
-  const std::vector<Section> sections{{"A", {{1004, 20}, {1096, 20}}}};
-  const SectionProfile profile = section_profiles(header, frame, sections, 0.5).at(0);
+};
+
+TEST(SectionProfiles, SurfacesAndSlipLineThroughALayeredBlock) {
+  LayeredBlock block;
+  const SectionProfile profile = block.profile(1004);
   ASSERT_EQ(profile.stations.size(), 47u);  // 92 m, every 2 m
   EXPECT_DOUBLE_EQ(profile.stations[8].x, 20);
   EXPECT_DOUBLE_EQ(profile.bed[8], 500);
@@ -149,10 +157,32 @@ TEST(SectionProfiles, SurfacesAndSlipLineThroughALayeredBlock) {
   EXPECT_TRUE(std::isnan(profile.soil[40]));
   EXPECT_TRUE(std::isnan(profile.slip[40]));
   // Sheared right down to the bed, the bed is the slip line; not sheared at all, there is none.
-  for (float& adps : frame.adps) adps = 1;
-  EXPECT_DOUBLE_EQ(section_profiles(header, frame, sections, 0.5).at(0).slip[8], 500);
-  for (float& adps : frame.adps) adps = 0.4f;
-  EXPECT_TRUE(std::isnan(section_profiles(header, frame, sections, 0.5).at(0).slip[8]));
+  for (float& adps : block.frame.adps) adps = 1;
+  EXPECT_DOUBLE_EQ(block.profile(1004).slip[8], 500);
+  for (float& adps : block.frame.adps) adps = 0.4f;
+  EXPECT_TRUE(std::isnan(block.profile(1004).slip[8]));
+}
+
+TEST(SectionProfiles, SurfacesMeetTheSidesOfTheDomainAsThoseOfTheMapDo) {
+  LayeredBlock block;
+  ParticleHeader& particles = block.header.particles;
+  for (const Side side : {Side::wall, Side::absorbing, Side::open}) {
+    particles.sides[0] = side;
+    const ColumnSurfaces map =
+        column_surfaces(column_particles(particles, block.frame), block.header.map, particles.bed);
+    const SectionProfile profile = block.profile(1000);
+    for (std::size_t k = 0; k < 10; ++k) {
+      const double expected = 500 + double(map.soil[10 * 51 + k]);
+      EXPECT_TRUE(std::isnan(expected) ? std::isnan(profile.soil[k]) : std::abs(profile.soil[k] - expected) < 1e-6)
+          << k;
+    }
+    // Behind a wall the block goes on as its image; where the side is open it ends there and its edge is rounded off.
+    EXPECT_NEAR(profile.soil[4], 524, 0.02);
+    if (side == Side::open)
+      EXPECT_LT(profile.soil[1], 523.9);
+    else
+      EXPECT_NEAR(profile.soil[1], 524, 0.02);
+  }
 }
 
 TEST(CsvTable, QuotesAndNumbers) {

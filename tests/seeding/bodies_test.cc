@@ -7,7 +7,7 @@
 
 #include "gtest/gtest.h"
 #include "scene.hh"
-#include "seeding/polygon.hh"
+#include "case/polygon.hh"
 #include "seeding/rigid_tiling.hh"
 
 namespace lgiw::test {

@@ -13,7 +13,7 @@ TEST(Estimate, ByHand) {
   c.output.end_time = 2;
   const ParticleCounts counts{1000, 0, 500, 0};
   // h = 0.015 m, c = 27 m/s, v = 2.7 m/s: dt = 0.4 * 0.015 / 29.7 = 2.0202e-4 s; 2 s are 9900 steps.
-  const RunEstimate e = estimate_run(c, counts, 27, 1.5e6);
+  const RunEstimate e = estimate_run(c, counts, 27, 0, 1.5e6);
   EXPECT_NEAR(e.time_step, 2.0202e-4, 1e-8);
   EXPECT_EQ(e.steps, 9900);
   EXPECT_NEAR(e.run_time, 9.9, 1e-9);
@@ -28,12 +28,30 @@ TEST(Estimate, TheSoilsWaveSpeedCounts) {
   c.soil.young_modulus = 1e6, c.soil.poisson_ratio = 0.3, c.soil.density = 2000;
   // K = 833333, G = 384615: sqrt((K + 4/3 G)/rho) = sqrt(1346154/2000) = 25.944 m/s
   EXPECT_NEAR(soil_sound_speed(c), 25.944, 1e-3);
-  EXPECT_NEAR(estimate_run(c, {}, 0, 1e6).time_step, 0.4 * 0.015 / (1.1 * 25.944), 1e-8);
+  EXPECT_NEAR(estimate_run(c, {}, 0, 0, 1e6).time_step, 0.4 * 0.015 / (1.1 * 25.944), 1e-8);
   // Twice the precision, more memory.
   const ParticleCounts counts{0, 1000000, 0, 0};
-  const double mixed = estimate_run(c, counts, 0, 1e6).memory_bytes;
+  const double mixed = estimate_run(c, counts, 0, 0, 1e6).memory_bytes;
   c.numerics.precision = Precision::double_;
-  EXPECT_GT(estimate_run(c, counts, 0, 1e6).memory_bytes, 1.2 * mixed);
+  EXPECT_GT(estimate_run(c, counts, 0, 0, 1e6).memory_bytes, 1.2 * mixed);
+}
+
+TEST(Estimate, VerletHasItsOwnLimits) {
+  Case c;
+  c.dimension = 2;
+  c.dp = 0.01;
+  c.water.present = true;
+  c.numerics.integrator = Integrator::verlet;
+  c.water.density_diffusion = 0.1, c.water.viscosity_alpha = 0.5;
+  // h = 0.015 m, c = 27 m/s: 0.01 h / (0.1 c) = 5.5556e-5 s; without diffusion 0.1 h / (0.5 c) = 1.1111e-4 s.
+  EXPECT_NEAR(estimate_run(c, {}, 27, 0, 1e6).time_step, 5.5556e-5, 1e-9);
+  c.water.density_diffusion = 0;
+  EXPECT_NEAR(estimate_run(c, {}, 27, 0, 1e6).time_step, 1.1111e-4, 1e-8);
+  // Soil, 5 m high: alpha c_s = 3 sqrt(9.81 x 5) = 21.01 m/s; 0.1 x 0.015 / 21.01 = 7.139e-5 s.
+  c.water.present = false;
+  c.slide.present = true;
+  c.soil.young_modulus = 1e6, c.soil.poisson_ratio = 0.3, c.soil.density = 2000, c.soil.stress_diffusion = 0;
+  EXPECT_NEAR(estimate_run(c, {}, 0, 5, 1e6).time_step, 7.139e-5, 1e-8);
 }
 
 TEST(Estimate, RatesGrowWithThreadsAndFallWithTheDimension) {

@@ -44,10 +44,8 @@ struct CaseRun {
   ColumnSurfaces surfaces(const ParticleState& s, double x0, double dx, std::size_t n) const {
     std::vector<float> xyz(s.water_x.begin(), s.water_x.end());
     xyz.insert(xyz.end(), s.soil_x.begin(), s.soil_x.end());
-    ColumnParticles columns;
-    columns.dimension = 2, columns.dp = c.dp, columns.h = 1.5 * c.dp;
+    ColumnParticles columns = column_particles(data.header);
     columns.n_water = s.water_x.size() / 3, columns.n_soil = s.soil_x.size() / 3, columns.xyz = xyz.data();
-    columns.wall_low[0] = data.header.low[0], columns.wall_high[0] = data.header.high[0];
     return column_surfaces(columns, SurfaceMap{n, 1, x0, 0, dx}, data.header.bed);
   }
   double diagnostic(const ParticleState& s, const std::string& name) const {

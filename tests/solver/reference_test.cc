@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <sstream>
 
 #include "case_run.hh"
+#include "measure/reference_data.hh"
 
 namespace lgiw::test {
 namespace {
@@ -115,22 +115,6 @@ output: {end_time: 1}
   EXPECT_NEAR(side, 0, 0.1);
 }
 
-/// Columns of a CSV file with one header line.
-std::vector<std::vector<double>> read_csv(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  std::getline(in, line);
-  std::vector<std::vector<double>> rows;
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream cells(line);
-    std::vector<double> row;
-    for (double x; cells >> x;) row.push_back(x);
-    if (!row.empty()) rows.push_back(row);
-  }
-  return rows;
-}
-
 struct Column {
   double surface_rms = 0, front = 0;  // m
 };
@@ -153,14 +137,16 @@ output: {end_time: 0.8}
   for (std::size_t i = 0; i < s.soil_x.size(); i += 3) x.push_back(s.soil_x[i]);
   std::sort(x.begin(), x.end());
   result.front = x[std::size_t(0.99 * double(x.size()))];
-  const auto measured = read_csv(std::string(LGIW_TEST_DATA) + "/bui2008_column_collapse/final_surface.csv");
+  const ProfileReference measured =
+      profile_references(read_csv(LGIW_TEST_DATA "/bui2008_column_collapse/final_surface.csv")).at(0);
+  const std::size_t n = measured.distance.size();
   const ColumnSurfaces surface = run.surfaces(s, 0, 0.001, 601);
   double sum = 0;
-  for (const auto& point : measured) {
-    const double z = surface.soil[std::size_t(std::lround(point[0] / 0.001))];
-    sum += std::pow((std::isfinite(z) ? z : 0) - point[1], 2);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double z = surface.soil[std::size_t(std::lround(measured.distance[k] / 0.001))];
+    sum += std::pow((std::isfinite(z) ? z : 0) - measured.elevation[k], 2);
   }
-  result.surface_rms = std::sqrt(sum / double(measured.size()));
+  result.surface_rms = std::sqrt(sum / double(n));
   std::printf("measured: column dp %.1f mm, E %.2f MPa, alpha %.2f: surface RMS %.2f mm, front (99 %%) %.3f m\n",
               1000 * dp, e / 1e6, run.p.soil_alpha, 1000 * result.surface_rms, result.front);
   return result;

@@ -16,17 +16,8 @@
 
 namespace lgiw::test {
 
-/// A wedge of soil slides down 45 degrees into 0.4 m of water.
-const std::string slide_case = R"(name: slide
-dimension: 2
-particle_spacing: 0.02
-terrain: {profile: [[0, 1], [1, 0], [2.5, 0]]}
-water: {level: 0.4}
-slide: {bodies: [[[0.3, 0.7], [0.75, 0.25], [0.75, 0.5], [0.5, 0.7]]]}
-soil: {young_modulus: 2.0e+6, friction_angle: 25}
-gauges: [{name: G1, x: 1.5}, {name: P1, x: 1.5, z: 0.1, quantity: pressure}]
-output: {end_time: 0.4, frame_interval: 0.1, surface_interval: 0.02}
-)";
+/// A wedge of soil slides down 45 degrees into 0.4 m of water; tests/robustness use it as well.
+const std::string slide_case = read_bytes(LGIW_TEST_DATA "/slide.yaml");
 
 /// A column of water, 0.2 m by 0.2 m, breaks over a dry bed with an open end.
 const std::string dam_case = R"(name: dam

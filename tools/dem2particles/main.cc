@@ -51,7 +51,7 @@ ordered_json volumes(int64_t count, double volume, double expected, double surve
 
 ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& seeder, double rate) {
   const SeedingReport& r = seeder.report();
-  const RunEstimate run = estimate_run(c, r.counts, seeder.header().sound_speed, rate);
+  const RunEstimate run = estimate_run(c, r.counts, seeder.header().sound_speed, r.greatest_soil_column * c.dp, rate);
   ordered_json j;
   j["case"] = c.name;
   j["dimension"] = c.dimension;

@@ -13,10 +13,10 @@
 
 #include "base/error.hh"
 #include "base/tool_main.hh"
+#include "files/csv_table.hh"
 #include "gauge_netcdf.hh"
 #include "measure/chosen_frames.hh"
 #include "measure/comparison.hh"
-#include "measure/csv_table.hh"
 #include "measure/earliest_arrival.hh"
 #include "measure/gauge_series.hh"
 #include "measure/section_runup.hh"

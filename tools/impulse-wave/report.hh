@@ -5,7 +5,7 @@
 #include <string>
 
 #include "assessment.hh"
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 
 namespace lgiw {
 

@@ -2,13 +2,13 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
 #include "base/atomic_file.hh"
 #include "base/error.hh"
 #include "base/tool_main.hh"
+#include "files/csv_table.hh"
 #include "files/run_file.hh"
 #include "solver/runner.hh"
 #include "solver/simulation.hh"
@@ -29,28 +29,14 @@ struct Options {
 
 void write_diagnostics(const std::string& run, const std::string& path, bool overwrite) {
   const auto columns = RunReader(run).diagnostics();
-  std::string text = "time";
-  std::size_t rows = 0;
-  for (const auto& [name, values] : columns) {
-    if (name != "time") text += "," + name;
-    rows = std::max(rows, values.size());
-  }
-  text += "\n";
-  char number[40];
-  for (std::size_t i = 0; i < rows; ++i) {
-    std::snprintf(number, sizeof number, "%.9g", columns.at("time")[i]);
-    text += number;
-    for (const auto& [name, values] : columns) {
-      if (name == "time") continue;
-      std::snprintf(number, sizeof number, ",%.9g", values[i]);
-      text += number;
-    }
-    text += "\n";
-  }
-  if (path == "-")
-    std::cout << text;
-  else
-    write_text_file(path, text, overwrite);
+  std::vector<std::string> header{"time"};
+  for (const auto& [name, values] : columns)
+    if (name != "time") header.push_back(name);
+  CsvTable table(header);
+  const std::size_t rows = columns.count("time") ? columns.at("time").size() : 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (const std::string& name : header) table.add(columns.at(name)[row]);
+  write_text_file(path, table.text(), overwrite);
 }
 
 void refuse_existing(const std::string& path, bool overwrite) {

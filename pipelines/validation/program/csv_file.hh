@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 
 namespace lgiw::validation {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 
 namespace lgiw::validation {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "base/error.hh"
 #include "evaluate.hh"
+#include "files/csv_table.hh"
 #include "measure/convergence.hh"
-#include "measure/csv_table.hh"
 #include "measure/norms.hh"
 #include "measures.hh"
 #include "series.hh"

@@ -1,4 +1,4 @@
-#include "measure/csv_table.hh"
+#include "files/csv_table.hh"
 
 #include <algorithm>
 #include <charconv>
@@ -21,6 +21,26 @@ std::string trimmed(const std::string& word) {
   return first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Whether the whole of `cell` is a number, infinities and NaN among them; a plus sign may stand in front.
+bool is_number(const std::string& cell, double& value) {
+  const bool plus = cell.size() > 1 && cell[0] == '+' && cell[1] != '-';  // which from_chars does not take
+  const char* last = cell.data() + cell.size();
+  const auto [end, error] = std::from_chars(cell.data() + plus, last, value);
+  return error == std::errc() && end == last;
+}
+
+/// A cell as a number, NaN where it is empty or `nan`; `otherwise`: what can be done about others but to write a
+/// number.
+double number_in(const CsvText& table, std::size_t row, std::size_t column, const char* otherwise) {
+  const std::string& cell = table.rows[row][column];
+  if (cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN") return std::numeric_limits<double>::quiet_NaN();
+  double value = 0;
+  LGIW_VALIDATE(
+      is_number(cell, value) && std::isfinite(value), table.place(row) + ": '" + cell.substr(0, 40) + "' is no number",
+      "column " + table.header[column] + " holds numbers", std::string("write it with a decimal point") + otherwise);
+  return value;
+}
+
 /// Takes a text apart into rows of cells.
 class CsvParser {
  public:
@@ -32,7 +52,8 @@ class CsvParser {
   /// The next row that is neither empty nor a comment, and the line it starts on; false at the end.
   bool next(std::vector<std::string>& cells, std::size_t& line) {
     while (at_ < text_.size()) {
-      if (text_[at_] == '#') {
+      const std::size_t word = text_.find_first_not_of(" \t", at_);
+      if (word != std::string::npos && text_[word] == '#') {
         at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1;
         ++line_;
         continue;
@@ -128,16 +149,13 @@ std::size_t CsvText::column(const std::string& heading) const {
 std::string CsvText::place(std::size_t row) const { return name + ":" + std::to_string(lines[row]); }
 
 double CsvText::number(std::size_t row, std::size_t column) const {
-  const std::string& cell = rows[row][column];
-  if (cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN") return std::numeric_limits<double>::quiet_NaN();
-  const char* first = cell.data() + (cell[0] == '+' ? 1 : 0);
-  const char* last = cell.data() + cell.size();
-  double value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  LGIW_VALIDATE(error == std::errc() && end == last && std::isfinite(value),
-                place(row) + ": '" + cell.substr(0, 40) + "' is no number",
-                "column " + header[column] + " holds numbers",
-                "write it with a decimal point, or leave the cell empty");
+  return number_in(*this, row, column, ", or leave the cell empty");
+}
+
+double CsvText::given_number(std::size_t row, std::size_t column) const {
+  const double value = number_in(*this, row, column, "");
+  LGIW_VALIDATE(!std::isnan(value), place(row) + ": " + header[column] + " is missing", "every row needs it",
+                "give it, or leave out the row");
   return value;
 }
 
@@ -147,10 +165,13 @@ CsvText parse_csv(const std::string& text, const std::string& name) {
   CsvText csv;
   csv.name = name;
   CsvParser parser(text, name);
-  std::size_t line = 0;
-  LGIW_VALIDATE(parser.next(csv.header, line), name + " is empty", "a table has a header line and rows",
+  LGIW_VALIDATE(parser.next(csv.header, csv.header_line), name + " is empty", "a table has a header line and rows",
                 "see that the name is right");
-  const std::string start = name + ":" + std::to_string(line);
+  const std::string start = name + ":" + std::to_string(csv.header_line);
+  double unnamed = 0;
+  LGIW_VALIDATE(!std::all_of(csv.header.begin(), csv.header.end(),
+                             [&](const std::string& cell) { return is_number(cell, unnamed); }),
+                start + ": there is no header", "the first line names the columns", "write one above the numbers");
   std::set<std::string> names;
   for (std::size_t k = 0; k < csv.header.size(); ++k) {
     LGIW_VALIDATE(!csv.header[k].empty(), start + ": column " + std::to_string(k + 1) + " has no name",
@@ -158,6 +179,7 @@ CsvText parse_csv(const std::string& text, const std::string& name) {
     LGIW_VALIDATE(names.insert(csv.header[k]).second, start + ": two columns are named " + csv.header[k],
                   "columns are told apart by name", "give each a name of its own");
   }
+  std::size_t line = 0;
   for (std::vector<std::string> cells; parser.next(cells, line);) {
     LGIW_VALIDATE(cells.size() == csv.header.size(),
                   name + ":" + std::to_string(line) + ": " + std::to_string(cells.size()) + " cells instead of " +

@@ -1,4 +1,4 @@
-#include "seeding/polygon.hh"
+#include "case/polygon.hh"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-// Tables as comma-separated values, the form in which all series and profiles leave the tools and measurements come in.
+// Tables as comma-separated values, the form in which all series and profiles leave the tools, and measurements and
+// motions come in.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +35,7 @@ struct CsvText {
   std::string name;  // of the file, for messages
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  std::size_t header_line = 0;
   std::vector<std::size_t> lines;  // where each row stands
 
   /// Index of a column; the number of columns where there is none of that name.
@@ -42,12 +44,14 @@ struct CsvText {
   std::string place(std::size_t row) const;
   /// A cell as a number; NaN where it is empty or `nan`. Throws InputError for other words and for infinities.
   double number(std::size_t row, std::size_t column) const;
+  /// The same of a cell that must hold one.
+  double given_number(std::size_t row, std::size_t column) const;
 };
 
 /// Reads comma-separated values (RFC 4180) with one header line; `path` "-" is stdin. Empty lines and lines that start
-/// with `#` are passed over, spaces around cells dropped. Throws InputError, with `file:line:` in front, for what is no
-/// such table: no file, no text, no rows, rows of another length than the header, columns without a name or with the
-/// same one, a quote that does not end.
+/// with `#`, behind spaces or not, are passed over, spaces around cells dropped. Throws InputError, with `file:line:`
+/// in front, for what is no such table: no file, no text, no rows, rows of another length than the header, numbers
+/// instead of a header, columns without a name or with the same one, a quote that does not end.
 CsvText read_csv(const std::string& path);
 /// The same of a text; `name` stands for the file in messages.
 CsvText parse_csv(const std::string& text, const std::string& name);
