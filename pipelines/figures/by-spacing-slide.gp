@@ -9,7 +9,7 @@ unit = STATS_max >= 1e5 ? 1e6 : 1; unit_name = unit > 1 ? "million m\302\263" : 
 number(text) = text eq "" ? NaN : real(text)
 bound(name, quantity, k, per) = number(measured(reference, name, quantity, k)) / per
 set multiplot layout 2, 2 title case.": slide and run-up by particle spacing" font ",17"
-set yrange [0:*]; set offsets 0, 0, graph 0.06, 0; set key bottom right; set xlabel "time (s)" offset 0, 0.4
+set yrange [0:1e-6<*]; set offsets 0, 0, graph 0.06, 0; set key bottom right; set xlabel "time (s)" offset 0, 0.4
 set title "moving or moved"; set ylabel unit_name offset 1
 plot for [k = 1:words(spacings)] rows(slide(word(spacings, k))) using 1:($2 / unit) with lines lw 2 lc rgb line_colour(k) title "dp ".word(spacings, k)." m", \
   for [k = 4:5] bound("slide", "slide_volume_m3", k, unit) with lines lc rgb "black" dt 2 lw 1.5 title (k == 4 && reference ne "" ? "measured: between" : "")
