@@ -98,7 +98,8 @@ std::vector<double> earliest_arrival(const RunHeader& header, const Case& c, con
   // Ways over neighbours are longer than straight ones, by 1 / cos(pi / 8) at most.
   const double straight = map.ny > 1 ? std::cos(std::numbers::pi / 8) : 1;
   while (!fronts.empty()) {
-    const auto [time, n] = fronts.top();
+    const double time = fronts.top().first;
+    const std::size_t n = fronts.top().second;
     fronts.pop();
     if (time > earliest[n]) continue;
     const Node at = node(n);
