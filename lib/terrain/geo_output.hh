@@ -28,11 +28,16 @@ struct RasterGrid {
 
 /// Where local coordinates lie: case CRS = local + origin. An empty WKT (analytic scenes) writes files without a CRS.
 /// origin[2] is not added to raster values. The attribution, where there is one, goes into the TIFF tag Copyright and
-/// into the GeoPackage's metadata item ATTRIBUTION.
+/// into the GeoPackage's metadata item ATTRIBUTION. Converts from whatever has all three (ParticleHeader).
 struct GeoReference {
   std::array<double, 3> origin{0, 0, 0};
-  std::string crs_wkt;
-  std::string attribution{};
+  std::string crs_wkt, attribution;
+  GeoReference() = default;
+  GeoReference(const std::array<double, 3>& origin_, std::string crs_wkt_, std::string attribution_ = "")
+      : origin(origin_), crs_wkt(std::move(crs_wkt_)), attribution(std::move(attribution_)) {}
+  template <class Header>
+  requires requires(const Header& h) { h.origin, h.crs_wkt, h.attribution; }
+  GeoReference(const Header& h) : GeoReference(h.origin, h.crs_wkt, h.attribution) {}
 };
 
 /// Writes `values` [ny,nx] (row 0 in the south; NaN is no-data) as a one-band float32 Cloud Optimized GeoTIFF whose

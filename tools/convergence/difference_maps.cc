@@ -79,9 +79,8 @@ void write_difference_maps(const std::string& folder, const std::vector<std::uni
         const bool neither = std::isnan(difference[n]) && std::isnan(finest[n]);
         difference[n] = neither ? NAN : filled(difference[n]) - filled(finest[n]);
       }
-      write_geotiff(file_of(folder, map.name, *runs[k], *runs.front()), coarsest.map, difference,
-                    {coarsest.particles.origin, coarsest.particles.crs_wkt, coarsest.particles.attribution}, "m",
-                    map.description + ", minus that of the finest run", overwrite);
+      write_geotiff(file_of(folder, map.name, *runs[k], *runs.front()), coarsest.map, difference, coarsest.particles,
+                    "m", map.description + ", minus that of the finest run", overwrite);
     }
   }
 }

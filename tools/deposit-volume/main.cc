@@ -247,7 +247,7 @@ int run(const Options& options, const std::string& command) {
   results.write(options.profiles, profiles);
   results.write(options.slices, slices);
   if (!options.thickness.empty())
-    write_geotiff(options.thickness, header.map, history.thickness(), {particles.origin, particles.crs_wkt, particles.attribution}, "m",
+    write_geotiff(options.thickness, header.map, history.thickness(), particles, "m",
                   "thickness of the slide at the end", options.common.overwrite);
   ordered_json summary = summary_json(states, history, threshold);
   if (!options.compare.empty()) {

@@ -48,7 +48,7 @@ void write_snapshots(const std::string& folder, const RunReader& run, const std:
   if (frames.empty()) return;
   const RunHeader& header = run.header();
   const ParticleHeader& particles = header.particles;
-  const GeoReference where{particles.origin, particles.crs_wkt, particles.attribution};
+  const GeoReference where(particles);
   const RasterGrid grid(header.map);
   const std::vector<std::string> times = time_names(run, frames);
   ColumnSurfaceMap surfaces_of(header.map, particles.bed);

@@ -58,7 +58,7 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
                        const std::vector<GaugePeaks>& peaks, bool overwrite) {
   const RunHeader& header = run.header();
   const ParticleHeader& particles = header.particles;
-  const GeoReference where{particles.origin, particles.crs_wkt, particles.attribution};
+  const GeoReference where(particles);
   const RasterGrid grid(header.map);
   const auto raster = [&](const std::string& name, const std::vector<float>& values, const char* unit,
                           const std::string& description) {
