@@ -259,7 +259,8 @@ void read_numerics(const YamlSection& s, Numerics& n) {
   s.number("h_over_dp", n.h_over_dp, between(1, 3));
   s.choice<Integrator>("integrator", n.integrator,
                        {{"leapfrog", Integrator::leapfrog}, {"verlet", Integrator::verlet}});
-  if (n.integrator == Integrator::verlet) n.cfl = 0.2;  // physics: at 0.4 it diverges
+  // At 0.4 it diverges; without density diffusion a dam break in 3-D gains 11 % of its energy at 0.2 and 0.2 % at 0.1.
+  if (n.integrator == Integrator::verlet) n.cfl = n.scheme == "huang2023" ? 0.2 : 0.1;
   s.number("cfl", n.cfl, {.low = 0, .high = 1, .above_low = true});
   s.integer("retakes", n.retakes, {.low = 0, .high = 6});
   s.choice<bool>("constitutive", n.return_mapping, {{"return_mapping", true}, {"rate_form", false}});

@@ -300,7 +300,7 @@ class Validator {
   void check_numerics() const {
     refuse_if(c_.numerics.integrator == Integrator::verlet && c_.numerics.cfl > 0.3, "numerics.cfl",
               "numerics.cfl is " + number_text(c_.numerics.cfl) + " with the verlet integrator",
-              "it diverges at 0.4 and is unsafe above 0.3", "write 0.2");
+              "it diverges at 0.4 and is unsafe above 0.3", "write 0.1");
   }
 
   void check_output() const {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <system_error>
 #include <vector>
@@ -141,7 +142,8 @@ bool parse_journal(const std::string& text, haddr_t& file_size, Pieces& pieces) 
   const uint64_t count = number();
   for (uint64_t k = 0; sound && k < count; ++k) {
     const uint64_t place = number(), size = number();
-    sound = sound && size <= end - at;
+    // A sum that wraps would put bytes where there is no memory.
+    sound = sound && size <= end - at && place <= uint64_t(std::numeric_limits<off_t>::max()) - size;
     if (sound) pieces.put(place, text.data() + at, size), at += size;
   }
   return sound && at == end;

@@ -150,7 +150,11 @@ def only2d: .flat = true;
   (at("degenerate"; "all wall"; "lake"; lake | .water.level = 0.1) | refused),
   at("degenerate"; "soil twice in one place"; "column"; column | .slide.bodies += .slide.bodies),
   at("degenerate"; "water twice in one place"; "dam"; dam | .water.bodies += .water.bodies),
-  (at("degenerate"; "water in the rock"; "dam"; dam | .water.bodies = [[[0, -20], [30, -20], [30, -10], [0, -10]]]) | refused)
+  (at("degenerate"; "water in the rock"; "dam"; dam | .water.bodies = [[[0, -20], [30, -20], [30, -10], [0, -10]]]) | refused),
+  # Verlet feeds on noise as well as on what diffuses.
+  (0.1, 0.2 | . as $c
+    | at("CFL number, Verlet, no density diffusion"; $c; "dam";
+        dam | .water.density_diffusion = 0 | .numerics = {integrator: "verlet", cfl: $c}))
 ]
 
 # --- Every point at two spacings in 2-D and one in 3-D ----------------------------------------------------------------------

@@ -257,7 +257,7 @@ interface: {velocity_factor: 1}
   EXPECT_EQ(mixed.interface.velocity_factor, 1);
   EXPECT_EQ(mixed.soil.artificial_stress, 0.5);
 
-  EXPECT_EQ(parse_case(minimal + "numerics: {integrator: verlet}\n", "c.yaml").numerics.cfl, 0.2);
+  EXPECT_EQ(parse_case(minimal + "numerics: {integrator: verlet}\n", "c.yaml").numerics.cfl, 0.1);
 }
 
 TEST(Case, OverridesReplaceAddAndRemove) {

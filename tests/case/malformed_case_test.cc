@@ -312,7 +312,7 @@ INSTANTIATE_TEST_SUITE_P(
                "c.yaml:18: output asks for 6e+06 frames (each holds every particle) lengthen frame_interval"},
         Spoilt{"VerletTooFast", "", "numerics: {integrator: verlet, cfl: 0.4}\n",
                "c.yaml:18: numerics.cfl is 0.4 with the verlet integrator (it diverges at 0.4 and is unsafe above 0.3) "
-               "write 0.2"},
+               "write 0.1"},
         Spoilt{"CoulombWithoutAngle", "friction_angle: 25", "friction_angle: 25\n  bed: coulomb",
                "c.yaml:15: soil.bed is coulomb without soil.bed_friction_angle (the friction has no limit) add "
                "bed_friction_angle, in degrees"},

@@ -146,6 +146,10 @@ TEST(JournaledFile, AWholeJournalIsCarriedOutAndHalfOneRemoved) {
     flipped[at] = char(flipped[at] ^ 4);
     EXPECT_EQ(after(flipped), "0123456789") << at;
   }
+  // Two pieces of which one lies over the end of all numbers, so that it seems to end before the other.
+  std::string wraps =
+      "lgiw journal 1\n" + number(12) + number(2) + number(2) + number(3) + "abc" + number(-2ul) + number(6) + "uvwxyz";
+  EXPECT_EQ(after(wraps + sha256_of_text(wraps)), "0123456789");
   h5::carry_out_journal(path);  // none there
   EXPECT_EQ(bytes_of(path), "0123456789");
 }

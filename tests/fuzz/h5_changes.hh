@@ -101,6 +101,7 @@ inline void change_attribute(const Handle& file, const H5Object& object, const s
     H5Adelete(owner.id(), name.c_str());
   } else if (what % 4 == 1) {  // the same type and shape, other values
     const Handle attribute(H5Aopen(owner.id(), name.c_str(), H5P_DEFAULT));
+    if (!attribute) return;  // an earlier change took it away
     const Handle type(H5Aget_type(attribute.id()));
     if (H5Tget_class(type.id()) != H5T_STRING) {
       const Handle space(H5Aget_space(attribute.id()));
@@ -174,6 +175,7 @@ inline void set_extent(const Handle& file, const H5Object& object, Script& scrip
   if (!open.dataset) return;
   Shape size(std::size_t(std::max(H5Sget_simple_extent_ndims(open.space.id()), 0)) + 1);
   H5Sget_simple_extent_dims(open.space.id(), size.data(), nullptr);
+  if (size[0] > 65536) return;  // made so before; to shrink it, HDF5 looks for each chunk there could be
   size[0] = script.byte() % 2 ? script.byte() : script.number();
   H5Dset_extent(open.dataset.id(), size.data());
 }

@@ -33,7 +33,9 @@ TEST(TimeStep, IsTheOneThatTheEstimateTellsWithEitherIntegrator) {
   enum { acoustic, force, viscous, diffusive };
   for (const char* integrator : {"leapfrog", "verlet"}) {
     const bool verlet = integrator[0] == 'v';
-    const std::string tail = "}\nnumerics: {integrator: " + std::string(integrator) + "}\n";
+    // At Verlet's default CFL number the acoustic limit hides the viscous one.
+    const std::string tail =
+        "}\nnumerics: {integrator: " + std::string(verlet ? "verlet, cfl: 0.2" : "leapfrog") + "}\n";
     EXPECT_EQ(compare_first_step(tank + tail), verlet ? diffusive : acoustic);
     EXPECT_EQ(compare_first_step(tank + ", density_diffusion: 0, viscosity_alpha: 0.9" + tail),
               verlet ? viscous : acoustic);
