@@ -94,6 +94,19 @@ int64_t read_count(const h5::File& file, const std::string& object, const std::s
 
 }  // namespace
 
+double run_file_bytes(const ParticleCounts& counts, const SurfaceMap& map, int64_t frames, int64_t surfaces) {
+  double a_particle = 3 * sizeof(float) + sizeof(uint8_t);  // Points, Lost
+  for (const Field& field : frame_fields(counts))
+    if (field.present) a_particle += double(field.width) * sizeof(float);
+  const double a_raster = double(map.size()) * sizeof(float);
+  const double first = double(moving(counts)) * (sizeof(uint8_t) + 2 * sizeof(int64_t)) +  // Phase, Vertices
+                       double(counts.soil) * 3 * sizeof(float) + a_raster * double(maxima_names(counts).size());
+  const double names = 2e6;  // groups, headers, chunks of series that are not full, bed, ground, case
+  const double series = 40 * sizeof(double);
+  return first + names + double(frames) * (double(moving(counts)) * a_particle + 20 * sizeof(double)) +
+         double(surfaces) * (a_raster * double(surface_names(counts).size()) + series);
+}
+
 RunWriter::RunWriter(const std::string& path, const RunHeader& header)
     : file_((check_particle_header(header.particles, path), h5::File::create_journaled(path))), header_(header) {
   const ParticleCounts& counts = header_.particles.counts;
@@ -286,8 +299,8 @@ void RunWriter::add_diagnostics(double time, const std::vector<std::pair<std::st
       columns_.push_back(name);
       file_.create_dataset<double>("/lgiw/diagnostics/" + name, {0}, true, false, {series_chunk});
     }
-    // HDF5 gives the heap of a group with many members its place in the file at the next flush only: now, then, and not at
-    // a moment that differs from run to run.
+    // HDF5 gives the heap of a group with many members its place in the file at the next flush only: now, then, and not
+    // at a moment that differs from run to run.
     file_.flush();
   }
   if (!std::equal(values.begin(), values.end(), columns_.begin(), columns_.end(),

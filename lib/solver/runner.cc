@@ -29,6 +29,7 @@
 #include "solver/error_budget.hh"
 #include "solver/make_setup.hh"
 #include "solver/neighbour_count.hh"
+#include "solver/output_plan.hh"
 #include "solver/water_pressure.hh"
 
 namespace lgiw {
@@ -106,17 +107,9 @@ std::vector<std::string> warnings_beforehand(const Resolution& resolution, const
   return warnings;
 }
 
-SurfaceMap make_map(const Case& c, const ParticleHeader& h) {
-  SurfaceMap m;
-  m.dx = c.output.map_spacing > 0 ? c.output.map_spacing : h.dp;
-  const auto cells = [&](double low, double high) {
-    return std::max<std::size_t>(1, std::size_t((high - low) / m.dx + 1e-9));
-  };
-  m.nx = cells(h.low[0], h.high[0]);
-  m.x0 = h.low[0] + 0.5 * m.dx;
-  m.ny = h.dimension == 3 ? cells(h.low[1], h.high[1]) : 1;
-  m.y0 = h.dimension == 3 ? h.low[1] + 0.5 * m.dx : 0;
-  return m;
+double moving_bytes(const Simulation& s) {
+  const PhaseBytes bytes = s.bytes();
+  return double(bytes.water + bytes.soil);
 }
 
 class Runner {
@@ -127,14 +120,10 @@ class Runner {
         header_(data.header),
         options_(options),
         model_(make_model(c, data)),
-        map_(make_map(c, data.header)),
-        surface_map_(map_, header_.bed) {
-    const double frames = c.output.frame_interval;
-    surface_interval_ = c.output.surface_interval > 0 ? c.output.surface_interval : sampling_interval();
-    per_frame_ = std::max<int64_t>(1, std::llround(frames / surface_interval_));
-    surface_interval_ = frames / double(per_frame_);
+        map_(output_map(c, data.header)),
+        surface_map_(map_, header_.bed),
+        schedule_(output_schedule(c, header_.dp)) {
     arrival_threshold_ = c.output.arrival_threshold > 0 ? c.output.arrival_threshold : header_.dp / 4;
-    last_output_ = std::max<int64_t>(1, int64_t(std::ceil(c.output.end_time / surface_interval_ - 1e-6)));
     place_pressure_gauges();
     LGIW_VALIDATE(!h5::is_being_written(partial_path(options.output)), options.output + " is being written",
                   "another lgiw-run has " + partial_path(options.output) + " open",
@@ -155,6 +144,7 @@ class Runner {
     outside_ = warnings_of(envelope_of(c, model_));
     warnings_ = warnings_beforehand(resolution_, outside_);
     for (const std::string& warning : warnings_) log("warning: " + warning);
+    warn_of_space();
   }
 
   std::string run() {
@@ -173,9 +163,10 @@ class Runner {
       record();
       keep();
     }
-    while (outputs_ <= last_output_) {
+    while (outputs_ <= schedule_.last) {
       checkpoint_if_due();
-      if (!advance_to(outputs_ < last_output_ ? double(outputs_) * surface_interval_ : case_.output.end_time)) continue;
+      if (!advance_to(outputs_ < schedule_.last ? double(outputs_) * schedule_.interval : case_.output.end_time))
+        continue;
       record();
       return_to_usual_step();
       keep();
@@ -184,14 +175,16 @@ class Runner {
   }
 
  private:
-  /// s between surface rasters, from which maxima are taken: what is thrown up falls g t^2 / 2, 0.011 dp, in half of
-  /// it, and the crest of a deep-water wave 6 dp long, the shortest that particles carry, by 1.2 %. Anything shorter
-  /// only costs time.
-  double sampling_interval() const {
-    const auto& g = case_.gravity;
-    return 0.3 * std::sqrt(header_.dp / std::hypot(g[0], g[1], g[2]));
+  /// Not kept with the results: another machine has another disk.
+  void warn_of_space() const {
+    const fs::path folder = fs::absolute(options_.output).parent_path();
+    std::error_code unknown;
+    const fs::space_info space = fs::space(folder, unknown);
+    if (unknown) return;
+    const OutputSize size = output_size(case_, header_, moving_bytes(*simulation_));
+    const std::string warning = space_warning(size, double(space.available), folder.string());
+    if (!warning.empty()) log("warning: " + warning);
   }
-
   void log(const std::string& line) const {
     if (options_.log) options_.log(line);
   }
@@ -432,7 +425,7 @@ class Runner {
                          water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
-    const bool with_frame = outputs_ % per_frame_ == 0 || outputs_ == last_output_;
+    const bool with_frame = schedule_.with_frame(outputs_);
     const double since = elapsed();
     DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
     // Costs part of a step, and changes slowly.
@@ -675,6 +668,7 @@ class Runner {
   ModelParameters model_;
   SurfaceMap map_;
   ColumnSurfaceMap surface_map_;
+  OutputSchedule schedule_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<RunWriter> writer_;
   std::vector<float> initial_soil_, initial_elevation_;
@@ -686,8 +680,8 @@ class Runner {
   Checkpoint resumed_;
   Resolution resolution_;
   std::vector<std::string> warnings_, outside_;  // outside_: of the envelope
-  double surface_interval_ = 0, arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0,
-         stepping_earlier_ = 0, diagnostics_seconds_ = 0, set_up_seconds_ = 0;
+  double arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0, stepping_earlier_ = 0,
+         diagnostics_seconds_ = 0, set_up_seconds_ = 0;
   struct Kept {
     int64_t step;
     Checkpoint state;
@@ -699,7 +693,7 @@ class Runner {
   } retaken_;
   static constexpr int64_t steps_between_kept = 500;  // a copy costs the time of a few steps on a device
   static constexpr int most_failures = 10;
-  int64_t per_frame_ = 1, outputs_ = 0, last_output_ = 1, batch_ = 1, steps_taken_ = 0;
+  int64_t outputs_ = 0, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -733,6 +727,8 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
                     {"left_out", data.header.counts.wall_left_out}};
   j["left_out"] = simulation->left_out();
   j["memory_bytes"] = simulation->bytes().total();
+  const OutputSize size = output_size(c, data.header, moving_bytes(*simulation));
+  j["disk_bytes_at_most"] = {{"run", size.run}, {"checkpoints", size.checkpoints}};
   j["time_step_s"] = dt;
   j["steps"] = std::llround(steps);
   j["estimated_run_time_s"] = steps * double(data.header.counts.total()) / particle_steps_per_s;

@@ -591,6 +591,7 @@ TEST_F(Run, DryRunPrintsAPlanAndWritesNothing) {
   EXPECT_EQ(plan.at("particles"), s.at("particles"));
   EXPECT_EQ(plan.at("left_out"), s.at("left_out"));
   EXPECT_EQ(plan.at("memory_bytes"), s.at("bytes"));
+  EXPECT_GT(plan.at("disk_bytes_at_most").at("run"), fs::file_size(*shop / "slide-run.h5"));
   EXPECT_NEAR(double(plan.at("steps")), double(s.at("steps")), 0.2 * double(s.at("steps")));
   const double total = double(s.at("particles").at("water")) + double(s.at("particles").at("soil")) +
                        double(s.at("particles").at("wall"));
