@@ -2,6 +2,7 @@
 #
 #   make -C pipelines robustness   kills, full and read-only disks, damaged checkpoints, too little memory, threads and
 #                                  resumption: out/robustness.json and .txt. COUNTS as below; ROBUSTNESS_TESTS names some.
+#   make -C pipelines load         an hour of the demo with ten times its particles: LOAD_SECONDS of model time
 #   make -C pipelines fuzz         every reader of ours, MINUTES (60) each, under ASan and UBSan; needs clang
 #   make -C pipelines sanitize     the quick suite under ASan and UBSan; SANITIZE_TESTS=REGEX takes some
 #   make -C pipelines races        every pass of the CPU solver on two threads under ThreadSanitizer; needs clang and libomp
@@ -21,7 +22,7 @@ robustness := $(root)/tests/robustness
 # In memory where there is room: a disk that must be waited for at every call takes most of the time.
 robustness_work := $(or $(wildcard /dev/shm),$(here)/out/.work)/lgiw-robustness
 
-.PHONY: robustness fuzz sanitize races lint
+.PHONY: robustness load fuzz sanitize races lint
 robustness: $(tools)
 	@mkdir -p $(here)/out
 	@failed=0; $(foreach test,$(ROBUSTNESS_TESTS),\
@@ -29,6 +30,10 @@ robustness: $(tools)
 	  jq -s . $(ROBUSTNESS_TESTS:%=$(here)/out/.%.json) > $(here)/out/robustness.json; rm -f $(ROBUSTNESS_TESTS:%=$(here)/out/.%.json); \
 	  jq -r '.[] | .test + ": " + (to_entries | map(select(.key != "test") | .key + " " + (.value | tostring)) | join(", "))' \
 	    $(here)/out/robustness.json | tee $(here)/out/robustness.txt; exit $$failed
+
+LOAD_SECONDS ?= 500
+load: $(tools)
+	$(robustness)/load-test $(bin) $(here)/out/.work/load-test $(LOAD_SECONDS) | tee $(here)/out/load.json
 
 MINUTES ?= 60
 fuzz:

@@ -62,9 +62,10 @@ struct RunHeader {
 /// Bytes that a run file takes at most: frames as they are stored, surface rasters as before they are deflated.
 double run_file_bytes(const ParticleCounts&, const SurfaceMap&, int64_t frames, int64_t surfaces);
 
-/// Writes a run frame by frame; the file is whole and readable after every flush(), whatever happens to the process before the
-/// next one: killed within a flush(), it is brought to the end of that one or the one before by reopen(). The moments of flush() leave no trace in the file. Throws WorkError when arrays have the wrong length or the disk
-/// is full. Vectors for what the scene lacks (pressure and water without water, adps and soil without soil) are empty.
+/// Writes a run frame by frame; the file is whole and readable after every flush(), whatever happens to the process before
+/// the next one: killed within a flush(), it is brought to the end of that one or the one before by reopen(). The moments
+/// of flush() leave no trace in the file. Throws WorkError when arrays have the wrong length or the disk is full. Vectors
+/// for what the scene lacks (pressure and water without water, adps and soil without soil) are empty.
 class RunWriter {
  public:
   RunWriter(const std::string& path, const RunHeader& header);
