@@ -1,6 +1,9 @@
 #include "solver/runner.hh"
 
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <omp.h>
 #include <unistd.h>
 
@@ -110,6 +113,15 @@ std::vector<std::string> warnings_beforehand(const Resolution& resolution, const
 double moving_bytes(const Simulation& s) {
   const PhaseBytes bytes = s.bytes();
   return double(bytes.water + bytes.soil);
+}
+
+/// Blocks as large as an output's arrays go back to the system when they are freed. Otherwise the C library learns to
+/// keep them, and whatever small outlives them lies between: in a run of 700 outputs that took a sixth more memory in
+/// the end.
+void give_back_large_blocks() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
 }
 
 class Runner {
@@ -742,6 +754,7 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
 }
 
 std::string run_case(const Case& c, const ParticleData& data, const RunOptions& options) {
+  give_back_large_blocks();
   Runner runner(c, data, options);
   return runner.run();
 }
