@@ -438,10 +438,12 @@ class Runner {
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
     const bool with_frame = schedule_.with_frame(outputs_);
-    const double since = elapsed();
+    double since = elapsed();
     DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
-    // Costs part of a step, and changes slowly.
+    diagnostics_seconds_ += elapsed() - since;
+    // Costs part of a step, in whose phases it is counted, and changes slowly.
     row.emplace_back("momentum_residual", with_frame ? momentum_residual() : extremes_["last_momentum_residual"]);
+    since = elapsed();
     writer_->add_diagnostics(st.time, row);
     lgiw::accumulate(row, extremes_);
     refuse_compressed(row, st.time);
