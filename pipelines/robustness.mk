@@ -34,6 +34,7 @@ robustness: $(tools)
 LOAD_SECONDS ?= 500
 load: $(tools)
 	$(robustness)/load-test $(bin) $(here)/out/.work/load-test $(LOAD_SECONDS) | tee $(here)/out/load.json
+	rm -r $(here)/out/.work/load-test
 
 MINUTES ?= 60
 fuzz:

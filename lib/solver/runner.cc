@@ -116,7 +116,7 @@ double moving_bytes(const Simulation& s) {
 }
 
 /// Blocks as large as an output's arrays go back to the system when they are freed. Otherwise the C library learns to
-/// keep them, and whatever small outlives them lies between: in a run of 700 outputs that took a sixth more memory in
+/// keep them, and whatever small outlives them lies between: in a run of 1040 outputs that took a sixth more memory in
 /// the end.
 void give_back_large_blocks() {
 #ifdef __GLIBC__
