@@ -58,7 +58,7 @@ std::string space_warning(const OutputSize& size, double available, const std::s
   if (size.total() <= available) return "";
   return "the run file takes up to " + amount(size.run) + ", its checkpoints " + amount(size.checkpoints) +
          " while it runs, and " + folder + " has " + amount(available) +
-         " left: make room, or raise output.frame_interval";
+         " for it: make room, or raise output.frame_interval";
 }
 
 }  // namespace lgiw

@@ -30,7 +30,7 @@ struct OutputSize {
 /// `moving_bytes`: what the solver holds of particles that move, which a checkpoint does not exceed.
 OutputSize output_size(const Case&, const ParticleHeader&, double moving_bytes);
 
-/// One line where `available` bytes in `folder` may be too few, otherwise empty.
+/// One line where `available` bytes for the run in `folder` may be too few, otherwise empty.
 std::string space_warning(const OutputSize&, double available, const std::string& folder);
 
 }  // namespace lgiw

@@ -187,14 +187,22 @@ class Runner {
   }
 
  private:
-  /// Not kept with the results: another machine has another disk.
+  /// Not kept with the results: another machine has another disk. What an earlier start of this run has written is
+  /// gone on with or removed: it takes up room that this one has.
   void warn_of_space() const {
     const fs::path folder = fs::absolute(options_.output).parent_path();
     std::error_code unknown;
     const fs::space_info space = fs::space(folder, unknown);
     if (unknown) return;
+    double available = double(space.available);
+    std::vector<std::string> own = checkpoints();
+    own.push_back(partial_path(options_.output));
+    for (const std::string& path : own) {
+      const auto bytes = fs::file_size(path, unknown);
+      if (!unknown) available += double(bytes);
+    }
     const OutputSize size = output_size(case_, header_, moving_bytes(*simulation_));
-    const std::string warning = space_warning(size, double(space.available), folder.string());
+    const std::string warning = space_warning(size, available, folder.string());
     if (!warning.empty()) log("warning: " + warning);
   }
   void log(const std::string& line) const {

@@ -66,10 +66,9 @@ TEST(OutputPlan, AFileTakesNearlyWhatIsToldWhenItsSurfacesCannotBeDeflated) {
 TEST(OutputPlan, WarnsWhereTheDiskIsTooSmall) {
   const OutputSize size{2.5e9, 3e8};
   EXPECT_EQ(space_warning(size, 2.8e9, "/data"), "");
-  EXPECT_EQ(
-      space_warning(size, 2.7e9, "/data"),
-      "the run file takes up to 2.5 GB, its checkpoints 300 MB while it runs, and /data has 2.7 GB left: make room, "
-      "or raise output.frame_interval");
+  EXPECT_EQ(space_warning(size, 2.7e9, "/data"),
+            "the run file takes up to 2.5 GB, its checkpoints 300 MB while it runs, and /data has 2.7 GB for it: make "
+            "room, or raise output.frame_interval");
 }
 
 }  // namespace
