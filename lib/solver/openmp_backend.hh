@@ -164,6 +164,13 @@ struct OpenMpBackend {
       for (int i = share(n, me); i < share(n, me + 1); ++i) order[mine[key[i]]++] = i;
     }
   }
+  /// Which cells a phase is near to (NearCells::mark); start[c] is its first particle in cell c.
+  template <class T, int D>
+  void mark_cells(const Grid<T, D>& grid, T h, const Array<int>& start, Array<unsigned char>& near) {
+    if (near.size() != std::size_t(grid.cells)) near = Array<unsigned char>(std::size_t(grid.cells));
+    marks_.resize(near.size());
+    NearCells<Machine, T, D>(grid, h).mark(start.data(), near.data(), marks_.data());
+  }
   template <class T>
   void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
     const int n = int(from.size());
@@ -230,8 +237,9 @@ struct OpenMpBackend {
     while (int(memory_.size()) < omp_get_max_threads()) memory_.emplace_back();
   }
 
-  std::vector<Tile> memory_;  // one a thread
-  std::vector<int> counts_;   // of the sort
+  std::vector<Tile> memory_;          // one a thread
+  std::vector<int> counts_;           // of the sort
+  std::vector<unsigned char> marks_;  // of cells
 };
 
 }  // namespace lgiw

@@ -100,6 +100,7 @@ class ParticleSimulation final : public Simulation {
     Array<T> x[D], v[D], a[D], excess, excess_next, term, v_previous[D], excess_previous, shift[D];
     Array<unsigned> id;
     Array<int> key, start;
+    Array<unsigned char> cells_near;
     /// Fields that follow the particles through a sort; the others are recomputed before they are read.
     template <class F>
     void carried(F&& f) {
@@ -114,7 +115,7 @@ class ParticleSimulation final : public Simulation {
         for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : shift) f(q, "shifting");
-      f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts");
+      f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts"), f(cells_near, "cells near water");
     }
   };
   struct Soil {
@@ -124,6 +125,7 @@ class ParticleSimulation final : public Simulation {
         stress_previous[S];
     Array<unsigned> id;
     Array<int> key, start;
+    Array<unsigned char> cells_near;
     template <class F>
     void carried(F&& f) {
       for (auto& q : position) f(q, "position");
@@ -141,6 +143,7 @@ class ParticleSimulation final : public Simulation {
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : stress_next) f(q, "next stress");
       f(image_term, "image pressure"), f(image_excess, "image density"), f(key, "cell"), f(start, "cell starts");
+      f(cells_near, "cells near soil");
     }
   };
   struct Wall {
@@ -167,6 +170,7 @@ class ParticleSimulation final : public Simulation {
     Array<int> body;
     Array<unsigned> id;
     Array<int> key, start;
+    Array<unsigned char> cells_near;
     Array<MotionRow> rows;
     Array<int> first_row;
     Array<double> pivot, ahead;
@@ -186,8 +190,8 @@ class ParticleSimulation final : public Simulation {
       f(term, "image pressure"), f(excess, "image density");
       for (auto& q : image_v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
-      f(key, "cell"), f(start, "cell starts"), f(rows, "motion"), f(first_row, "first rows");
-      f(pivot, "pivots"), f(ahead, "directions"), f(now, "places");
+      f(key, "cell"), f(start, "cell starts"), f(cells_near, "cells near bodies"), f(rows, "motion");
+      f(first_row, "first rows"), f(pivot, "pivots"), f(ahead, "directions"), f(now, "places");
     }
   };
 
@@ -383,6 +387,9 @@ class ParticleSimulation final : public Simulation {
       if (n_water_) convert(water_.x[k], water_.position[k]);
       if (n_soil_) convert(soil_.x[k], soil_.position[k]);
     }
+    if (n_water_) mark_cells(water_);
+    if (n_soil_) mark_cells(soil_);
+    if (n_bodies_) mark_cells(bodies_);
   }
 
   std::vector<PhaseTime> timings() const override {
@@ -526,22 +533,13 @@ class ParticleSimulation final : public Simulation {
     for (unsigned i : id) ++start[key[i] + 1];
     for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
     put(wall_.start, start);
-    if constexpr (Tr::tiles) put(wall_.cells_near, cells_near(start));
+    mark_cells(wall_);
     fill_common(in, id, wall_, wall_.v);
   }
-  /// 1 for cells that hold or neighbour particles, those of the next-but-one cell included; cells are wider than h.
-  std::vector<unsigned char> cells_near(const std::vector<int>& start) const {
-    std::vector<unsigned char> out(grid_.cells);
-    for (int c = 0; c < grid_.cells; ++c) out[c] = start[c + 1] > start[c];
-    for (int k = 0; k < D; ++k) {
-      const std::vector<unsigned char> before = out;
-      for (int c = 0; c < grid_.cells; ++c) {
-        const int at = c / grid_.stride[k] % grid_.n[k];
-        for (int step = -2; step <= 2; ++step)
-          if (at + step >= 0 && at + step < grid_.n[k]) out[c] |= before[c + step * grid_.stride[k]];
-      }
-    }
-    return out;
+  /// Where a pass need not look for this phase: most walls of a dry bank, water far from the slide.
+  template <class Phase>
+  void mark_cells([[maybe_unused]] Phase& phase) {
+    if constexpr (Tr::tiles) backend_.mark_cells(grid_, p_.h, phase.start, phase.cells_near);
   }
   void fill_bodies(const InitialParticles& in) {
     const std::vector<unsigned> id = wall_ids(in, true);
@@ -670,6 +668,7 @@ class ParticleSimulation final : public Simulation {
     Spare& spare = phase.spare;
     if (spare.order.size() != phase.key.size()) spare.order = Array<int>(phase.key.size());
     backend_.sort_by_cell(phase.key, grid_.cells, spare.order, phase.start);
+    mark_cells(phase);
     phase.carried([&](auto& q, const char*) {
       if (!q.size()) return;
       auto& to = spare.of(q);
@@ -771,7 +770,8 @@ class ParticleSimulation final : public Simulation {
       w.shift[k] = water_.shift[k].data();
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
-    w.start = water_.start.data(), w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data();
+    w.start = water_.start.data(), w.cells_near = water_.cells_near.data(), w.excess = water_.excess.data(),
+    w.excess_next = water_.excess_next.data();
     w.term = water_.term.data(), w.id = water_.id.data(), w.key = water_.key.data();
     w.excess_previous = water_.excess_previous.data();
     return w;
@@ -792,7 +792,8 @@ class ParticleSimulation final : public Simulation {
       s.stress[c] = soil_.stress[c].data(), s.stress_next[c] = soil_.stress_next[c].data();
       s.artificial[c] = soil_.artificial[c].data(), s.stress_previous[c] = soil_.stress_previous[c].data();
     }
-    s.start = soil_.start.data(), s.adps = soil_.adps.data(), s.id = soil_.id.data(), s.key = soil_.key.data();
+    s.start = soil_.start.data(), s.cells_near = soil_.cells_near.data(), s.adps = soil_.adps.data(),
+    s.id = soil_.id.data(), s.key = soil_.key.data();
     s.image_term = soil_.image_term.data(), s.image_excess = soil_.image_excess.data();
     return s;
   }
@@ -821,7 +822,7 @@ class ParticleSimulation final : public Simulation {
       b.arm[k] = m.arm[k].data(), b.own_normal[k] = m.own_normal[k].data();
     }
     for (int c = 0; c < S; ++c) b.stress[c] = m.stress[c].data();
-    b.start = m.start.data(), b.weight = m.weight.data(), b.slip = m.slip.data();
+    b.start = m.start.data(), b.cells_near = m.cells_near.data(), b.weight = m.weight.data(), b.slip = m.slip.data();
     b.friction = m.friction.data();
     b.term = m.term.data(), b.excess = m.excess.data(), b.id = m.id.data();
     b.body = m.body.data(), b.key = m.key.data();

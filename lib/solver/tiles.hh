@@ -5,8 +5,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -30,11 +33,13 @@ struct TileMemory {
 };
 
 /// Which cells may hold something near a box.
-template <class T, int D>
+template <class Machine, class T, int D>
 class NearCells {
  public:
   NearCells(const Grid<T, D>& grid, T h)
-      : grid_(grid), reach_(T(2 * margin) * h), steps_(double(reach_) * grid.inverse_width) {}
+      : grid_(grid), reach_(T(2 * margin) * h), steps_(double(reach_) * grid.inverse_width) {
+    assert(steps_ < std::sqrt(2.0));  // mark()
+  }
 
   T reach() const { return reach_; }
   NearBox<T, D> box_of(const T* const* x, int begin, int end) const {
@@ -74,6 +79,41 @@ class NearCells {
       }
     }
   }
+  /// Sets near[c] to 1 for every cell c within whose reach a phase has particles (the first in cell b is start[b]), to
+  /// 0 for most others; `spare` is as long. A pass skips a phase where a tile lies in a cell of the latter.
+  void mark(const int* start, unsigned char* near, unsigned char* spare) const {
+    const int cells = grid_.cells;
+    unsigned char *from = near, *to = spare;
+#pragma omp parallel for schedule(static) if (cells > few_cells)
+    for (int c = 0; c < cells; ++c) from[c] = start[c + 1] > start[c];
+    // The end of a row marks the beginning of the next one for nothing, which does no harm.
+    const auto widen = [&](std::initializer_list<int> strides) {
+#pragma omp parallel for schedule(static) if (cells > few_cells)
+      for (int begin = 0; begin < cells; begin += block) {
+        const int end = std::min(cells, begin + block);
+        const unsigned char* const in = from;
+        unsigned char* const out = to;
+        std::memcpy(out + begin, in + begin, std::size_t(end - begin));
+        for (int by : strides) {
+#pragma GCC ivdep
+          for (int c = std::max(begin, by); c < end; ++c) out[c] = out[c] | in[c - by];
+          const int last = std::min(end, cells - by);
+#pragma GCC ivdep
+          for (int c = begin; c < last; ++c) out[c] = out[c] | in[c + by];
+        }
+      }
+      std::swap(from, to);
+    };
+    for (int k = 0; k < D; ++k) widen({grid_.stride[k]});
+    // What is two cells away along one axis and at most one along the others; two and two is further than the reach.
+    if (steps_ > 1) {
+      if constexpr (D == 2)
+        widen({grid_.stride[0], grid_.stride[1]});
+      else
+        widen({grid_.stride[0], grid_.stride[1], grid_.stride[2]});
+    }
+    if (from != near) std::memcpy(near, from, std::size_t(cells));
+  }
   /// No cell near a tile has a number larger than that of the tile by more than this.
   int furthest() const {
     int sum = 0;
@@ -84,6 +124,8 @@ class NearCells {
  private:
   // Rates are taken half a step ago: pairs that have just left the support still count.
   static constexpr double margin = 1.005;
+  static constexpr int few_cells = 100000;  // too few to share among threads
+  static constexpr int block = 4096;        // of cells, which stay in the nearest cache
 
   /// The box and what is near it along one axis, in widths of a cell.
   struct Slabs {
@@ -209,7 +251,7 @@ class Neighbourhood {
   using Phase = CopiedPhase<Tr>;
   static constexpr int phases = 4;
 
-  const NearCells<T, D> near_;
+  const NearCells<typename Tr::Machine, T, D> near_;
   Memory& memory_;
   int phases_ = 0;
   std::vector<Phase> phase_ = std::vector<Phase>(phases);
@@ -236,7 +278,7 @@ class PairNeighbourhood {
     phase_.add(view.x);
     (phase_.add(fields), ...);
   }
-  const NearCells<T, D>& cells() const { return near_; }
+  const NearCells<typename Tr::Machine, T, D>& cells() const { return near_; }
   /// Copies what lies near the particles of `cell`.
   void look(int cell) {
     const int begin = phase_.start[cell], end = phase_.start[cell + 1];
@@ -279,7 +321,7 @@ class PairNeighbourhood {
   /// The field of the phase itself that the f-th sum goes to.
   T* sum(int f) const { return const_cast<T*>(sums_.from[f]); }
 
-  const NearCells<T, D> near_;
+  const NearCells<typename Tr::Machine, T, D> near_;
   Memory& memory_;
   int first_ = 0, last_ = 0;  // copies of later cells [first_, last_)
   std::vector<Phase> lists_ = std::vector<Phase>(2);

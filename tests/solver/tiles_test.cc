@@ -1,0 +1,111 @@
+// Which cells a pass of the CPU may skip.
+#include "solver/tiles.hh"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include "solver/openmp_backend.hh"
+
+namespace lgiw {
+namespace {
+
+constexpr double h = 0.3;
+
+template <int D>
+struct Cells {
+  Grid<float, D> grid;
+  NearCells<Cpu<LGIW_LANES>, float, D> near;
+  std::vector<int> start;
+  std::vector<unsigned char> marks, spare;
+
+  explicit Cells(const std::array<double, 3>& size)
+      : grid(std::array<double, 3>{}.data(), size.data(), OpenMpBackend<Cpu<LGIW_LANES>>::cell_width(h, D)),
+        near(grid, float(h)),
+        marks(std::size_t(grid.cells)),
+        spare(marks) {}
+  /// Marks the cells near particles at x.
+  void mark(const std::vector<Vec<float, D>>& x) {
+    start.assign(std::size_t(grid.cells) + 1, 0);
+    for (const auto& p : x) ++start[std::size_t(grid.cell(p)) + 1];
+    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+    near.mark(start.data(), marks.data(), spare.data());
+  }
+};
+
+template <int D>
+std::vector<Vec<float, D>> anywhere(std::size_t n, const std::array<double, 3>& size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Vec<float, D>> x(n);
+  for (auto& p : x)
+    for (int k = 0; k < D; ++k) p.c[k] = std::uniform_real_distribution<float>(0, float(size[std::size_t(k)]))(random);
+  return x;
+}
+
+/// Cells within whose reach a particle is are marked: no pair of particles is missed.
+template <int D>
+void expect_all_pairs_marked() {
+  const std::array<double, 3> size{20, 9, 5};
+  Cells<D> cells(size);
+  const auto phase = anywhere<D>(20, size, 1), others = anywhere<D>(20000, size, 2);
+  cells.mark(phase);
+  int met = 0, skipped = 0;
+  for (const auto& q : others) {
+    const bool marked = cells.marks[std::size_t(cells.grid.cell(q))] == 1;
+    skipped += !marked;
+    for (const auto& p : phase) {
+      if (dot(q - p, q - p) >= cells.near.reach() * cells.near.reach()) continue;
+      ++met;
+      EXPECT_TRUE(marked);
+    }
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(skipped, 5000);
+}
+
+TEST(Tiles, MarkAllCellsWithinReach) {
+  expect_all_pairs_marked<2>();
+  expect_all_pairs_marked<3>();
+}
+
+template <int D>
+std::ptrdiff_t marked_around_one() {
+  Cells<D> cells({9, 9, 9});
+  Vec<float, D> middle;
+  for (float& c : middle.c) c = 4.5f;
+  cells.mark({middle});
+  return std::count(cells.marks.begin(), cells.marks.end(), 1);
+}
+
+/// In 3-D cells are narrower than the reach: five along an axis, but not both of two axes.
+TEST(Tiles, MarkFewOthers) {
+  EXPECT_EQ(marked_around_one<2>(), 9);
+  EXPECT_EQ(marked_around_one<3>(), 27 + 6 * 9);
+}
+
+/// More cells than one thread takes, particles at the corners, and marks of before that are wrong.
+TEST(Tiles, MarkLargeDomains) {
+  const std::array<double, 3> size{60, 50, 20};
+  Cells<3> cells(size);
+  ASSERT_GT(cells.grid.cells, 200000);
+  auto phase = anywhere<3>(50, size, 3);
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec<float, 3> p;
+    for (int k = 0; k < 3; ++k) p.c[k] = corner >> k & 1 ? float(size[std::size_t(k)]) : 0.f;
+    phase.push_back(p);
+  }
+  std::fill(cells.marks.begin(), cells.marks.end(), 1);
+  cells.mark(phase);
+  EXPECT_LT(std::count(cells.marks.begin(), cells.marks.end(), 1), 58 * 82);
+  for (const auto& p : phase) {
+    const int c = cells.grid.cell(p);
+    for (int k = 0; k < 3; ++k)
+      for (int by : {-2, 2}) EXPECT_EQ(cells.marks.at(std::size_t(c + by * cells.grid.stride[k])), 1);
+  }
+}
+
+}  // namespace
+}  // namespace lgiw
