@@ -1,7 +1,7 @@
 # What the tests of robustness share; each is called TEST BIN WORK [COUNT] and prints one line of JSON. Sourced.
 # BIN: the folder of the built tools. WORK: a folder for what is made, emptied first. COUNT: how many trials.
 set -eu -o pipefail
-export LC_ALL=C.UTF-8 OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1
+export LC_ALL=C.UTF-8 OMP_NUM_THREADS=1
 test=$(basename "$0")
 [ $# -ge 2 ] || { echo "usage: $test BIN WORK [COUNT]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)

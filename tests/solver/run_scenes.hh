@@ -48,10 +48,8 @@ class Background {
   Background(const Workshop& shop, const std::string& command) : err_(shop / "background.err") {
     fs::remove(err_);
     const std::string line = "cd '" + (shop / "").string() +
-                             "' && PATH='" LGIW_BIN_DIR
-                             "':\"$PATH\" && export OMP_NUM_THREADS=2"
-                             " OMP_WAIT_POLICY=passive && exec " +
-                             command + " >/dev/null 2>background.err";
+                             "' && PATH='" LGIW_BIN_DIR "':\"$PATH\" && export OMP_NUM_THREADS=2 && exec " + command +
+                             " >/dev/null 2>background.err";
     child_ = fork();
     if (child_ == 0) {
       execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));

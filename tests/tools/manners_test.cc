@@ -11,6 +11,8 @@ class EveryTool : public testing::TestWithParam<std::string> {
   Workshop workshop_;
 };
 
+class ParallelTool : public EveryTool {};
+
 TEST_P(EveryTool, HelpGoesToStdoutAndEndsWithAnExample) {
   const Outcome help = workshop_.run(GetParam() + " --help");
   EXPECT_EQ(help.status, 0);
@@ -47,6 +49,20 @@ TEST_P(EveryTool, NoArgumentsAreRefused) {
   EXPECT_NE(outcome.err.find("required"), std::string::npos) << outcome.err;
 }
 
+/// As OpenMP itself tells when it is loaded.
+TEST_P(ParallelTool, ThreadsWaitBrieflyUnlessTheEnvironmentSaysHow) {
+  const std::string call = "env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY OMP_DISPLAY_ENV=verbose ";
+  const Outcome own = workshop_.run(call + GetParam() + " --version");
+  EXPECT_EQ(own.status, 0);
+  EXPECT_EQ(own.out.rfind(GetParam() + " ", 0), 0u) << own.out;
+  const std::size_t last = own.err.rfind("GOMP_SPINCOUNT");
+  ASSERT_NE(last, std::string::npos) << own.err;
+  EXPECT_EQ(own.err.find("'1000'", last), last + std::string("GOMP_SPINCOUNT = ").size()) << own.err;
+  const Outcome active = workshop_.run(call + "OMP_WAIT_POLICY=active " + GetParam() + " --version");
+  EXPECT_EQ(active.err.find("'1000'"), std::string::npos) << active.err;
+  EXPECT_EQ(active.err.find("GOMP_SPINCOUNT"), active.err.rfind("GOMP_SPINCOUNT")) << active.err;  // not started anew
+}
+
 std::string name_of(const testing::TestParamInfo<std::string>& tool) {
   std::string name = tool.param;
   std::replace(name.begin(), name.end(), '-', '_');
@@ -56,6 +72,8 @@ std::string name_of(const testing::TestParamInfo<std::string>& tool) {
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
                          testing::Values("dem2particles", "lgiw-run", "gauges", "deposit-volume", "impulse-wave",
                                          "convergence"),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Tools, ParallelTool, testing::Values("dem2particles", "lgiw-run", "gauges", "deposit-volume"),
                          name_of);
 
 }  // namespace

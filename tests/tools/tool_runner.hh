@@ -50,8 +50,7 @@ class Workshop {
   Outcome run(const std::string& command) const {
     const fs::path out = folder_ / ".stdout", err = folder_ / ".stderr";
     const std::string line = "cd '" + folder_.string() +
-                             "' && OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive PATH='" LGIW_BIN_DIR
-                             "':\"$PATH\" && export OMP_NUM_THREADS OMP_WAIT_POLICY && " +
+                             "' && OMP_NUM_THREADS=2 PATH='" LGIW_BIN_DIR "':\"$PATH\" && export OMP_NUM_THREADS && " +
                              command + " </dev/null >.stdout 2>.stderr";
     const int status = std::system(line.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(out), read_bytes(err)};

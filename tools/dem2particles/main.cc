@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.hh"
 #include "base/error.hh"
+#include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/sweep.hh"
 #include "seeding/run_estimate.hh"
@@ -235,6 +236,7 @@ int run(const Options& options, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_briefly(argv);
   Options options;
   CLI::App app("Turns a case - terrain, still water, slide - into particles for lgiw-run.", "dem2particles");
   app.add_option("case", options.case_file, "Case file (YAML); - for stdin")->required()->type_name("CASE");

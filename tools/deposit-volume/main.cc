@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.hh"
+#include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/dotted_key.hh"
 #include "files/csv_table.hh"
@@ -262,6 +263,7 @@ int run(const Options& options, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_briefly(argv);
   Options options;
   CLI::App app(
       "Volumes, speeds and shape of a run's slide: the soil whose accumulated plastic strain is above a threshold.\n"

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/error.hh"
+#include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "files/csv_table.hh"
 #include "gauge_netcdf.hh"
@@ -430,6 +431,7 @@ int run(const Options& options, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_briefly(argv);
   Options options;
   CLI::App app(
       "Wave gauges, run-up and wave maps of a run. Elevations are in the case's vertical datum, heights above its "

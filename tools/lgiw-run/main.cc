@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.hh"
 #include "base/error.hh"
+#include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "files/csv_table.hh"
 #include "files/run_file.hh"
@@ -112,6 +113,7 @@ int run(const Options& o, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_briefly(argv);
   CLI::App app(
       "Runs the soil-water SPH simulation of a particles file and writes frames, surfaces, maxima and diagnostics.",
       "lgiw-run");
