@@ -374,6 +374,7 @@ class BedFractions {
                                            float(kernel_.radius - z), scale, intervals));
       if (profile.fraction.back() >= 0.5f || z < bottom) break;
     }
+    profile.fraction.shrink_to_fit();  // it stays, above every node that was ever wet
   }
 
   MeasuringKernel kernel_;
