@@ -120,7 +120,7 @@ double moving_bytes(const Simulation& s) {
 /// memory in the end.
 void give_back_large_blocks() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1 << 16);
+  mallopt(M_MMAP_THRESHOLD, 1 << 18);
 #endif
 }
 
