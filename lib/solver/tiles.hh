@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -87,14 +86,15 @@ class NearCells {
 #pragma omp parallel for schedule(static) if (cells > few_cells)
     for (int c = 0; c < cells; ++c) from[c] = start[c + 1] > start[c];
     // The end of a row marks the beginning of the next one for nothing, which does no harm.
-    const auto widen = [&](std::initializer_list<int> strides) {
+    const auto widen = [&](const int* strides, int n) {
 #pragma omp parallel for schedule(static) if (cells > few_cells)
       for (int begin = 0; begin < cells; begin += block) {
         const int end = std::min(cells, begin + block);
         const unsigned char* const in = from;
         unsigned char* const out = to;
         std::memcpy(out + begin, in + begin, std::size_t(end - begin));
-        for (int by : strides) {
+        for (int k = 0; k < n; ++k) {
+          const int by = strides[k];
 #pragma GCC ivdep
           for (int c = std::max(begin, by); c < end; ++c) out[c] = out[c] | in[c - by];
           const int last = std::min(end, cells - by);
@@ -104,14 +104,9 @@ class NearCells {
       }
       std::swap(from, to);
     };
-    for (int k = 0; k < D; ++k) widen({grid_.stride[k]});
+    for (int k = 0; k < D; ++k) widen(&grid_.stride[k], 1);
     // What is two cells away along one axis and at most one along the others; two and two is further than the reach.
-    if (steps_ > 1) {
-      if constexpr (D == 2)
-        widen({grid_.stride[0], grid_.stride[1]});
-      else
-        widen({grid_.stride[0], grid_.stride[1], grid_.stride[2]});
-    }
+    if (steps_ > 1) widen(grid_.stride, D);
     if (from != near) std::memcpy(near, from, std::size_t(cells));
   }
   /// No cell near a tile has a number larger than that of the tile by more than this.
