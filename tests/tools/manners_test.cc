@@ -13,6 +13,11 @@ class EveryTool : public testing::TestWithParam<std::string> {
 
 class ParallelTool : public EveryTool {};
 
+class Manners : public testing::Test {
+ protected:
+  Workshop workshop_;
+};
+
 TEST_P(EveryTool, HelpGoesToStdoutAndEndsWithAnExample) {
   const Outcome help = workshop_.run(GetParam() + " --help");
   EXPECT_EQ(help.status, 0);
@@ -61,6 +66,16 @@ TEST_P(ParallelTool, ThreadsWaitBrieflyUnlessTheEnvironmentSaysHow) {
   const Outcome active = workshop_.run(call + "OMP_WAIT_POLICY=active " + GetParam() + " --version");
   EXPECT_EQ(active.err.find("'1000'"), std::string::npos) << active.err;
   EXPECT_EQ(active.err.find("GOMP_SPINCOUNT"), active.err.rfind("GOMP_SPINCOUNT")) << active.err;  // not started anew
+}
+
+/// What top shows and killall looks for. The tool waits for its case: when that can be written, it has been started
+/// anew.
+TEST_F(Manners, AToolStartedAnewKeepsItsName) {
+  const Outcome outcome = workshop_.run(
+      "(mkfifo case.yaml; env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY dem2particles case.yaml -o p.h5 & "
+      "timeout 60 sh -c 'exec 3> case.yaml; cat /proc/'$!'/comm; echo nonsense: 1 >&3'; wait $!)");
+  EXPECT_EQ(outcome.out, "dem2particles\n");
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
 }
 
 std::string name_of(const testing::TestParamInfo<std::string>& tool) {
