@@ -64,7 +64,6 @@ double elastic_energy(const ModelParameters& p, const ParticleState& s, double v
 class SoilCells {
  public:
   SoilCells(const ParticleState& s, double reach) : width_(reach) {
-    high_ = {-1e300, -1e300, -1e300}, low_ = {1e300, 1e300, 1e300};
     for (std::size_t i = 0; i < s.soil_lost.size(); ++i)
       for (int k = 0; k < 3 && !s.soil_lost[i]; ++k)
         low_[k] = std::min(low_[k], s.soil_x[3 * i + k]), high_[k] = std::max(high_[k], s.soil_x[3 * i + k]);
@@ -111,7 +110,7 @@ class SoilCells {
     return std::size_t((at[2] * n_[1] + at[1]) * n_[0] + at[0]);
   }
   double width_;
-  std::array<double, 3> low_{}, high_{};
+  std::array<double, 3> low_{1e300, 1e300, 1e300}, high_{-1e300, -1e300, -1e300};
   std::array<int64_t, 3> n_{};
   std::vector<std::size_t> start_, order_;
 };

@@ -50,15 +50,17 @@ int lanes_to_use() {
                    "set it to " + names + ", or leave it out for the widest");
 }
 
+template <class P, class T, int D, int... each>
+std::unique_ptr<Simulation> make_of(std::integer_sequence<int, each...>, int lanes, const ModelParameters& p,
+                                    const InitialParticles& particles, NumberType type) {
+  std::unique_ptr<Simulation> made;
+  ((lanes == each ? void(made = make_cpu<P, T, D, each>(p, particles, type)) : void()), ...);
+  return made;
+}
+
 template <class P, class T, int D>
 std::unique_ptr<Simulation> make_with(const ModelParameters& p, const InitialParticles& particles, NumberType type) {
-  std::unique_ptr<Simulation> made;
-  const int lanes = lanes_to_use();
-  const auto make = [&]<int... each>(std::integer_sequence<int, each...>) {
-    ((lanes == each ? void(made = make_cpu<P, T, D, each>(p, particles, type)) : void()), ...);
-  };
-  make(std::integer_sequence<int, LGIW_CPU_LANES>{});
-  return made;
+  return make_of<P, T, D>(std::integer_sequence<int, LGIW_CPU_LANES>{}, lanes_to_use(), p, particles, type);
 }
 
 }  // namespace

@@ -210,8 +210,10 @@ bool RasterSource::place(const OGRSpatialReference& case_crs) {
     // The metric size of the pixel in the middle.
     const double c = 0.5 * columns, r = 0.5 * rows;
     double x[3], y[3];
-    const std::array<double, 2> places[3] = {at_pixel(geo_, c, r), at_pixel(geo_, c + 1, r), at_pixel(geo_, c, r + 1)};
-    for (int k = 0; k < 3; ++k) x[k] = places[k][0], y[k] = places[k][1];
+    for (int k = 0; k < 3; ++k) {  // the pixel's corner and its two neighbours
+      const auto [u, v] = at_pixel(geo_, c + (k == 1), r + (k == 2));
+      x[k] = u, y[k] = v;
+    }
     LGIW_VALIDATE(forward->Transform(3, x, y), what_ + ": cannot be brought into the case's CRS", QuietGdal::message(),
                   "check the CRS of the raster and terrain.crs");
     pixel_ = std::min(std::hypot(x[1] - x[0], y[1] - y[0]), std::hypot(x[2] - x[0], y[2] - y[0]));
