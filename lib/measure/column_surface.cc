@@ -125,7 +125,10 @@ struct BinGrid {
 /// Particles of one phase sorted by bin, and from the top down in a bin.
 class PhaseBins {
  public:
-  PhaseBins(const ColumnParticles& particles, std::size_t first, std::size_t count, const BinGrid& grid) : grid_(grid) {
+  explicit PhaseBins(const BinGrid& grid) : grid_(grid) {}
+
+  void fill(const ColumnParticles& particles, std::size_t first, std::size_t count) {
+    const BinGrid& grid = grid_;
     start_.assign(grid.nx * grid.ny + 1, 0);
     const auto bin_of = [&](std::size_t p) -> int64_t {
       const float* r = particles.xyz + 3 * p;
@@ -135,25 +138,32 @@ class PhaseBins {
       if (!(u >= 0 && u < double(grid.nx) && v >= 0 && v < double(grid.ny))) return -1;
       return int64_t(v) * int64_t(grid.nx) + int64_t(u);
     };
-    std::vector<int64_t> bin(count);
+    bin_.resize(count);
 #pragma omp parallel for
-    for (std::size_t k = 0; k < count; ++k) bin[k] = bin_of(first + k);
-    for (int64_t b : bin)
+    for (std::size_t k = 0; k < count; ++k) bin_[k] = bin_of(first + k);
+    for (int64_t b : bin_)
       if (b >= 0) ++start_[b + 1];
-    for (std::size_t b = 0; b + 1 < start_.size(); ++b) start_[b + 1] += start_[b];
+    low_ = {grid.nx, grid.ny}, high_ = {0, 0};
+    for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
+      if (start_[b + 1] > 0) {
+        const std::size_t i = b % grid.nx, j = b / grid.nx;
+        low_ = {std::min(low_[0], i), std::min(low_[1], j)}, high_ = {std::max(high_[0], i), std::max(high_[1], j)};
+      }
+      start_[b + 1] += start_[b];
+    }
     // Numbers that sort like the height, from the top, and then like the index, which leaves one order only.
-    std::vector<uint64_t> order(start_.back());
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    order_.resize(start_.back());
+    next_.assign(start_.begin(), start_.end() - 1);
     for (std::size_t k = 0; k < count; ++k)
-      if (bin[k] >= 0) order[next[bin[k]]++] = uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
+      if (bin_[k] >= 0) order_[next_[bin_[k]]++] = uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
 
-    for (auto* values : {&x_, &y_, &z_}) values->resize(order.size() + lanes);
-    if (particles.velocity) square_speed_.resize(order.size());
+    for (auto* values : {&x_, &y_, &z_}) values->resize(order_.size() + lanes);
+    if (particles.velocity) square_speed_.resize(order_.size());
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t b = 0; b < start_.size() - 1; ++b) {
-      std::sort(order.begin() + start_[b], order.begin() + start_[b + 1]);
+      std::sort(order_.begin() + start_[b], order_.begin() + start_[b + 1]);
       for (std::size_t k = start_[b]; k < start_[b + 1]; ++k) {
-        const std::size_t p = first + uint32_t(order[k]);
+        const std::size_t p = first + uint32_t(order_[k]);
         const float* r = particles.xyz + 3 * p;
         x_[k] = r[0], y_[k] = grid.flat() ? 0 : r[1], z_[k] = r[2];
         if (!particles.velocity) continue;
@@ -171,10 +181,11 @@ class PhaseBins {
       return u + reach < u0 || u - reach > u0 + grid_.edge * double(n);
     };
     if (outside(x, grid_.x0, grid_.nx) || (!grid_.flat() && outside(y, grid_.y0, grid_.ny))) return;
-    const std::size_t i0 = clamped((x - reach - grid_.x0) / grid_.edge, grid_.nx);
-    const std::size_t i1 = clamped((x + reach - grid_.x0) / grid_.edge, grid_.nx);
-    const std::size_t j0 = grid_.flat() ? 0 : clamped((y - reach - grid_.y0) / grid_.edge, grid_.ny);
-    const std::size_t j1 = grid_.flat() ? 0 : clamped((y + reach - grid_.y0) / grid_.edge, grid_.ny);
+    const std::size_t i0 = std::max(low_[0], clamped((x - reach - grid_.x0) / grid_.edge, grid_.nx));
+    const std::size_t i1 = std::min(high_[0], clamped((x + reach - grid_.x0) / grid_.edge, grid_.nx));
+    const std::size_t j0 = grid_.flat() ? 0 : std::max(low_[1], clamped((y - reach - grid_.y0) / grid_.edge, grid_.ny));
+    const std::size_t j1 =
+        grid_.flat() ? 0 : std::min(high_[1], clamped((y + reach - grid_.y0) / grid_.edge, grid_.ny));
     for (std::size_t j = j0; j <= j1; ++j)
       for (std::size_t i = i0; i <= i1; ++i) {
         const std::size_t b = j * grid_.nx + i;
@@ -207,9 +218,14 @@ class PhaseBins {
     return bits >> 31 ? bits : ~bits & 0x7fffffffu;
   }
 
-  const BinGrid& grid_;
+  const BinGrid grid_;
+  std::array<std::size_t, 2> low_{}, high_{};  // bins with particles lie between these
   std::vector<std::size_t> start_;
   std::vector<float> x_, y_, z_, square_speed_;
+  // While it is filled; kept for the next time, since memory new from the system costs as much time as the sort.
+  std::vector<int64_t> bin_;
+  std::vector<uint64_t> order_;
+  std::vector<std::size_t> next_;
 };
 
 /// Coordinates of x and its mirror images in the walls from which particles between the walls are seen. A point on a
@@ -361,17 +377,20 @@ class BedFractions {
     Profile& profile = profiles_[node];
     const double x = map_.x(node), y = map_.y(node), origin = profile.top - kernel_.radius;
     std::vector<float> heights;  // from the origin, for small numbers
-    float lowest = 0;
+    float lowest = 0, highest = -std::numeric_limits<float>::infinity();
     for (const Line& line : lines_) {
       heights.push_back(
           float(bed_.height(folded(x + line.dx, low_[0], high_[0]), folded(y + line.dy, low_[1], high_[1])) - origin));
       if (heights.back() < lowest) lowest = heights.back();
+      if (heights.back() > highest) highest = heights.back();  // not where it is NaN
     }
     const double bottom = lowest - kernel_.radius;  // below it everything is that has a bed
     const float scale = float(intervals / (2 * kernel_.radius));
     for (double z = kernel_.radius;; z -= spacing_) {
-      profile.fraction.push_back(table_sum(heights.data(), table_.data(), tables_.data(), heights.size(),
-                                           float(kernel_.radius - z), scale, intervals));
+      const float offset = float(kernel_.radius - z);
+      profile.fraction.push_back(highest + offset <= 0 ? 0.0f
+                                                       : table_sum(heights.data(), table_.data(), tables_.data(),
+                                                                   heights.size(), offset, scale, intervals));
       if (profile.fraction.back() >= 0.5f || z < bottom) break;
     }
     profile.fraction.shrink_to_fit();  // it stays, above every node that was ever wet
@@ -513,16 +532,28 @@ std::pair<double, double> crossing(Column& column, Level upper, Level lower, dou
   }
 }
 
+/// Surfaces of the columns before, of which the next is expected in line.
+class Neighbours {
+ public:
+  void add(double z) { before_ = last_, last_ = z; }
+  /// NaN where there is none.
+  double guess(double dp) const { return std::abs(last_ - before_) < dp / 2 ? 2 * last_ - before_ : last_; }
+
+ private:
+  double last_ = nan_value, before_ = nan_value;
+};
+
 /// The highest height at which the filled fraction rises downwards through 1/2 and more than half of it is of the
-/// column's own phase; NaN where there is none.
-double highest_surface(Column& column, double dp) {
+/// column's own phase; NaN where there is none. A good guess, which may be NaN, saves a third of the work.
+double highest_surface(Column& column, double dp, double guess) {
   if (column.empty()) return nan_value;
   // Where the surface should be by the slope, and a little beyond, so that it lies between; dp/2 at most.
   const auto step = [&](const Column::Fractions& f) {
-    return f.slope < 0 ? std::min(dp / 2, std::abs((f.filled() - 0.5) / f.slope) + dp / 20) : dp / 2;
+    return f.slope < 0 ? std::min(dp / 2, 1.1 * std::abs((f.filled() - 0.5) / f.slope) + 0.015 * dp) : dp / 2;
   };
-  double top = column.next_particle(infinity) + dp / 2;
-  Level upper{top, column.at(top)};
+  const double highest = column.next_particle(infinity);
+  const double start = guess > highest && guess < highest + dp / 2 ? guess : highest + dp / 2;
+  Level upper{start, column.at(start)};
   // Above all particles what is filled only falls with the height: either no surface lies higher, or one does at most.
   while (upper.f.filled() >= 0.5 && upper.f.own > 0.25) {
     const Level lower = upper;
@@ -555,8 +586,24 @@ double highest_surface(Column& column, double dp) {
 
 }  // namespace
 
-struct ColumnSurfaceMap::Bed : BedFractions {
-  using BedFractions::BedFractions;
+/// What depends on the scene alone, and memory for what does not.
+struct ColumnSurfaceMap::Scene {
+  Scene(const ColumnParticles& particles, const SurfaceMap& map, const HeightField& bed)
+      : fractions(particles, map, bed),
+        water(BinGrid(map, particles.dimension, particles.h)),
+        soil(BinGrid(map, particles.dimension, particles.h)) {
+    const bool flat = particles.dimension == 2;
+    for (std::size_t i = 0; i < map.nx; ++i)
+      x_images.push_back(images(map.x(i), particles.wall_low[0], particles.wall_high[0], 2 * particles.h));
+    for (std::size_t j = 0; j < map.ny; ++j)
+      y_images.push_back(images(map.y(j * map.nx), flat ? -infinity : particles.wall_low[1],
+                                flat ? infinity : particles.wall_high[1], 2 * particles.h));
+  }
+
+  BedFractions fractions;
+  PhaseBins water, soil;
+  std::vector<std::vector<double>> x_images, y_images;
+  ColumnSurfaces result;
 };
 
 ColumnSurfaceMap::ColumnSurfaceMap(const SurfaceMap& map, const HeightField& bed) : map_(map), bed_(bed) {
@@ -564,53 +611,56 @@ ColumnSurfaceMap::ColumnSurfaceMap(const SurfaceMap& map, const HeightField& bed
 }
 ColumnSurfaceMap::~ColumnSurfaceMap() = default;
 
-ColumnSurfaces ColumnSurfaceMap::operator()(const ColumnParticles& particles) {
+const ColumnSurfaces& ColumnSurfaceMap::operator()(const ColumnParticles& particles) {
   LGIW_EXPECT(particles.dp > 0 && particles.h > 0);
-  if (!fractions_) fractions_ = std::make_unique<Bed>(particles, map_, bed_);
-  const double dp = particles.dp, radius = 2 * particles.h;
-  const BinGrid grid(map_, particles.dimension, particles.h);
-  const PhaseBins water(particles, 0, particles.n_water, grid);
-  const PhaseBins soil(particles, particles.n_water, particles.n_soil, grid);
-  const bool flat = particles.dimension == 2;
-  std::vector<std::vector<double>> x_images, y_images;
-  for (std::size_t i = 0; i < map_.nx; ++i)
-    x_images.push_back(images(map_.x(i), particles.wall_low[0], particles.wall_high[0], radius));
-  for (std::size_t j = 0; j < map_.ny; ++j)
-    y_images.push_back(images(map_.y(j * map_.nx), flat ? -infinity : particles.wall_low[1],
-                              flat ? infinity : particles.wall_high[1], radius));
+  if (!scene_) scene_ = std::make_unique<Scene>(particles, map_, bed_);
+  const double dp = particles.dp;
+  PhaseBins &water = scene_->water, &soil = scene_->soil;
+  water.fill(particles, 0, particles.n_water);
+  soil.fill(particles, particles.n_water, particles.n_soil);
 
-  ColumnSurfaces result;
-  result.water.assign(map_.size(), nan_float);
-  result.depth.assign(map_.size(), nan_float);
-  if (particles.n_soil) result.soil.assign(map_.size(), nan_float);
-  if (particles.velocity) result.speed.assign(map_.size(), nan_float);
-  if (particles.velocity && particles.n_soil) result.soil_speed.assign(map_.size(), nan_float);
+  ColumnSurfaces& result = scene_->result;
+  const auto clear = [&](std::vector<float>& values, bool wanted) {
+    values.assign(wanted ? map_.size() : 0, nan_float);
+  };
+  clear(result.water, true), clear(result.depth, true), clear(result.soil, particles.n_soil);
+  clear(result.speed, particles.velocity), clear(result.soil_speed, particles.velocity && particles.n_soil);
   const double reach = std::max(map_.dx, particles.h) / 2;  // at least h/2: a wet column holds a particle
 
+  // Guesses go from node to node within a block of a row, so that they do not depend on the threads.
+  constexpr std::size_t block = 64;
+  const std::size_t blocks = (map_.nx + block - 1) / block;
 #pragma omp parallel
   {
-    Column column(particles, *fractions_);
-#pragma omp for schedule(dynamic, 64)
-    for (std::size_t node = 0; node < map_.size(); ++node) {
-      const double x = map_.x(node), y = map_.y(node);
-      const std::vector<double>&xi = x_images[node % map_.nx], &yi = y_images[node / map_.nx];
-      double soil_z = nan_value;
-      if (particles.n_soil) {
-        column.place(node, xi, yi, soil, nullptr);
-        soil_z = highest_surface(column, dp);
-        result.soil[node] = float(soil_z);
-        if (particles.velocity && !std::isnan(soil_z))
-          result.soil_speed[node] = soil.largest_speed(x, y, reach, soil_z + dp / 2);
+    Column column(particles, scene_->fractions);
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t b = 0; b < blocks * map_.ny; ++b) {
+      const std::size_t j = b / blocks, first = b % blocks * block;
+      Neighbours soil_before, water_before;
+      for (std::size_t i = first; i < std::min(map_.nx, first + block); ++i) {
+        const std::size_t node = j * map_.nx + i;
+        const double x = map_.x(node), y = map_.y(node);
+        const std::vector<double>&xi = scene_->x_images[i], &yi = scene_->y_images[j];
+        double soil_z = nan_value;
+        if (particles.n_soil) {
+          column.place(node, xi, yi, soil, nullptr);
+          soil_z = highest_surface(column, dp, soil_before.guess(dp));
+          soil_before.add(soil_z);
+          result.soil[node] = float(soil_z);
+          if (particles.velocity && !std::isnan(soil_z))
+            result.soil_speed[node] = soil.largest_speed(x, y, reach, soil_z + dp / 2);
+        }
+        if (!particles.n_water) continue;
+        column.place(node, xi, yi, water, particles.n_soil ? &soil : nullptr);
+        const double water_z = highest_surface(column, dp, water_before.guess(dp));
+        water_before.add(water_z);
+        if (std::isnan(water_z)) continue;
+        result.water[node] = float(water_z);
+        double base = bed_.empty() ? nan_value : bed_.height(x, y);
+        if (soil_z < water_z && !(soil_z < base)) base = soil_z;
+        result.depth[node] = float(std::max(0.0, water_z - base));
+        if (particles.velocity) result.speed[node] = water.largest_speed(x, y, reach, water_z + dp / 2);
       }
-      if (!particles.n_water) continue;
-      column.place(node, xi, yi, water, particles.n_soil ? &soil : nullptr);
-      const double water_z = highest_surface(column, dp);
-      if (std::isnan(water_z)) continue;
-      result.water[node] = float(water_z);
-      double base = bed_.empty() ? nan_value : bed_.height(x, y);
-      if (soil_z < water_z && !(soil_z < base)) base = soil_z;
-      result.depth[node] = float(std::max(0.0, water_z - base));
-      if (particles.velocity) result.speed[node] = water.largest_speed(x, y, reach, water_z + dp / 2);
     }
   }
   return result;

@@ -55,13 +55,14 @@ class ColumnSurfaceMap {
  public:
   ColumnSurfaceMap(const SurfaceMap& map, const HeightField& bed);
   ~ColumnSurfaceMap();
-  ColumnSurfaces operator()(const ColumnParticles& particles);
+  /// The result lives until the next call.
+  const ColumnSurfaces& operator()(const ColumnParticles& particles);
 
  private:
-  struct Bed;
+  struct Scene;
   SurfaceMap map_;
   const HeightField& bed_;
-  std::unique_ptr<Bed> fractions_;
+  std::unique_ptr<Scene> scene_;
 };
 
 /// The same, once.

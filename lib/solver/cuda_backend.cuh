@@ -99,6 +99,11 @@ struct CudaBackend {
     if (from.size())
       check_cuda(cudaMemcpy(to, from.data(), from.size() * sizeof(T), cudaMemcpyDeviceToHost), "copy from the device");
   }
+  /// n values from `first` on.
+  template <class T>
+  void download(T* to, const Array<T>& from, std::size_t first, std::size_t n) const {
+    check_cuda(cudaMemcpy(to, from.data() + first, n * sizeof(T), cudaMemcpyDeviceToHost), "copy from the device");
+  }
   template <class T>
   void zero(const Array<T>& a) {
     if (a.size()) check_cuda(cudaMemset(a.data(), 0, a.size() * sizeof(T)), "clearing memory");

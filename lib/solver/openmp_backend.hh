@@ -45,6 +45,11 @@ struct OpenMpBackend {
   void download(T* to, const Array<T>& from) const {
     if (from.size()) std::memcpy(to, from.data(), from.size() * sizeof(T));
   }
+  /// n values from `first` on.
+  template <class T>
+  void download(T* to, const Array<T>& from, std::size_t first, std::size_t n) const {
+    std::memcpy(to, from.data() + first, n * sizeof(T));
+  }
   template <class T>
   void zero(const Array<T>& a) {
     if (a.size()) std::memset(static_cast<void*>(a.data()), 0, a.size() * sizeof(T));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -273,21 +274,20 @@ class ParticleSimulation final : public Simulation {
 
   void download(ParticleState& out) const override {
     if (n_water_) {
-      const auto id = host(water_.id);
+      const auto id = readable(water_.id);
       positions(out.water_x, water_.position, id), vectors(out.water_v, water_.v, id);
-      out.water_excess = by_id<float>(host(water_.excess), id);
+      by_id(out.water_excess, water_.excess, id);
       out.water_pressure.resize(out.water_excess.size());
       const EquationOfState<double> eos(model_.water_density, model_.sound_speed);
       for (std::size_t i = 0; i < out.water_excess.size(); ++i)
         out.water_pressure[i] = float(eos.pressure(double(out.water_excess[i])));
-      out.water_lost = lost(water_.start, id);
+      lost(out.water_lost, water_.start, id);
     }
     if (n_soil_) {
-      const auto id = host(soil_.id);
+      const auto id = readable(soil_.id);
       positions(out.soil_x, soil_.position, id), vectors(out.soil_v, soil_.v, id);
-      out.soil_adps = by_id<float>(host(soil_.adps), id);
-      out.soil_stress = stresses(soil_.stress, id);
-      out.soil_lost = lost(soil_.start, id);
+      by_id(out.soil_adps, soil_.adps, id), stresses(out.soil_stress, soil_.stress, id);
+      lost(out.soil_lost, soil_.start, id);
     }
   }
   void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const override {
@@ -297,16 +297,16 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_) stress.assign(6 * n, 0.f);
     const auto collect = [&](const auto& walls, int count) {
       if (!count) return;
-      const auto id = host(walls.id);
+      const auto id = readable(walls.id);
       if (n_water_) {
-        const auto term = host(walls.term), excess = host(walls.excess);
+        const auto term = readable(walls.term), excess = readable(walls.excess);
         for (int i = 0; i < count; ++i) {
           const double rho = model_.water_density + double(excess[i]);
           pressure[id[i]] = float(double(term[i]) * rho * rho);
         }
       }
       for (int c = 0; c < S && n_soil_; ++c) {
-        const auto values = host(walls.stress[c]);
+        const auto values = readable(walls.stress[c]);
         for (int i = 0; i < count; ++i) stress[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
       }
     };
@@ -318,13 +318,13 @@ class ParticleSimulation final : public Simulation {
     wall_id = host(bodies_.id);
     x.assign(3 * wall_id.size(), 0.0);
     for (int k = 0; k < D; ++k) {
-      const auto values = host(bodies_.x[k]);
+      const auto values = readable(bodies_.x[k]);
       for (std::size_t i = 0; i < wall_id.size(); ++i) x[3 * i + axis(k)] = double(values[i]);
     }
   }
   void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const override {
-    if (n_water_) forces(water, water_.a, host(water_.id), double(p_.water_mass));
-    if (n_soil_) forces(soil, soil_.a, host(soil_.id), double(p_.soil_mass));
+    if (n_water_) forces(water, water_.a, readable(water_.id), double(p_.water_mass));
+    if (n_soil_) forces(soil, soil_.a, readable(soil_.id), double(p_.soil_mass));
   }
   InternalForces internal_forces() override {
     // What the next step reads is put back: copies cost less than a second pass.
@@ -339,9 +339,8 @@ class ParticleSimulation final : public Simulation {
     std::vector<double> water, soil;
     download_accelerations(water, soil);
     const auto add = [&](const auto& phase, const std::vector<double>& force) {
-      const auto id = host(phase.id);
-      const int active = host(phase.start)[grid_.cells];
-      for (int i = 0; i < active; ++i) {
+      const auto id = readable(phase.id);
+      for (int i = 0, n = active(phase.start); i < n; ++i) {
         double square = 0;
         for (int k = 0; k < 3; ++k) {
           const double f = force[3 * std::size_t(id[i]) + k];
@@ -701,6 +700,20 @@ class ParticleSimulation final : public Simulation {
     backend_.download(values.data(), from);
     return values;
   }
+  /// The values of an array until it changes: a copy only where the host cannot read it as it is.
+  template <class U>
+  auto readable(const Array<U>& from) const {
+    if constexpr (Backend::on_host)
+      return std::span<const U>(from.data(), from.size());
+    else
+      return host(from);
+  }
+  /// How many particles are still there.
+  int active(const Array<int>& start) const {
+    int n;
+    backend_.download(&n, start, std::size_t(grid_.cells), 1);
+    return n;
+  }
   void convert(Array<T>& to, const Array<P>& from) {
     backend_.for_each(int(to.size()), Convert<T, P>{to.data(), from.data()});
   }
@@ -830,46 +843,38 @@ class ParticleSimulation final : public Simulation {
   }
 
   // Into the order of the particles file.
-  template <class Out, class In>
-  static std::vector<Out> by_id(const std::vector<In>& values, const std::vector<unsigned>& id) {
-    std::vector<Out> out(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) out[id[i]] = Out(values[i]);
-    return out;
+  using Ids = std::span<const unsigned>;
+  void by_id(std::vector<float>& out, const Array<T>& field, Ids id) const {
+    const auto values = readable(field);
+    out.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) out[id[i]] = float(values[i]);
   }
   template <class Out, class In>
-  void interleave(std::vector<Out>& out, const Array<In>* field, const std::vector<unsigned>& id,
-                  double factor = 1) const {
+  void interleave(std::vector<Out>& out, const Array<In>* field, Ids id, double factor = 1) const {
     out.assign(3 * id.size(), Out(0));
     for (int k = 0; k < D; ++k) {
-      const auto values = host(field[k]);
+      const auto values = readable(field[k]);
       for (std::size_t i = 0; i < id.size(); ++i)
         out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
     }
   }
-  void positions(std::vector<double>& out, const Array<P>* field, const std::vector<unsigned>& id) const {
-    interleave(out, field, id);
-  }
-  void vectors(std::vector<float>& out, const Array<T>* field, const std::vector<unsigned>& id) const {
-    interleave(out, field, id);
-  }
-  void forces(std::vector<double>& out, const Array<T>* field, const std::vector<unsigned>& id, double mass) const {
+  void positions(std::vector<double>& out, const Array<P>* field, Ids id) const { interleave(out, field, id); }
+  void vectors(std::vector<float>& out, const Array<T>* field, Ids id) const { interleave(out, field, id); }
+  void forces(std::vector<double>& out, const Array<T>* field, Ids id, double mass) const {
     interleave(out, field, id, mass);
     for (std::size_t i = 0; i < id.size(); ++i)
       for (int k = 0; k < D; ++k) out[3 * i + axis(k)] -= mass * double(p_.gravity.c[k]);
   }
-  std::vector<float> stresses(const Array<T>* field, const std::vector<unsigned>& id) const {
-    std::vector<float> out(6 * id.size(), 0.f);
+  void stresses(std::vector<float>& out, const Array<T>* field, Ids id) const {
+    out.assign(6 * id.size(), 0.f);
     for (int c = 0; c < S; ++c) {
-      const auto values = host(field[c]);
+      const auto values = readable(field[c]);
       for (std::size_t i = 0; i < id.size(); ++i) out[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
     }
-    return out;
   }
-  std::vector<unsigned char> lost(const Array<int>& start, const std::vector<unsigned>& id) const {
-    const int active = host(start)[grid_.cells];
-    std::vector<unsigned char> out(id.size(), 0);
-    for (std::size_t i = active; i < id.size(); ++i) out[id[i]] = 1;
-    return out;
+  void lost(std::vector<unsigned char>& out, const Array<int>& start, Ids id) const {
+    out.assign(id.size(), 0);
+    for (std::size_t i = active(start); i < id.size(); ++i) out[id[i]] = 1;
   }
 
   /// Everything that a step reads from the one before, in the sorted order, so that a resumed run repeats the same

@@ -54,7 +54,7 @@ void write_snapshots(const std::string& folder, const RunReader& run, const std:
   ColumnSurfaceMap surfaces_of(header.map, particles.bed);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const Frame frame = run.frame(frames[k]);
-    const ColumnSurfaces surfaces = surfaces_of(column_particles(particles, frame));
+    const ColumnSurfaces& surfaces = surfaces_of(column_particles(particles, frame));
     const std::string at = text_of(" at %.2f s", frame.time);
     std::vector<float> height = surfaces.water;
     for (float& z : height) z = float(z - particles.still_water_level);
