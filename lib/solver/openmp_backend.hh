@@ -57,8 +57,13 @@ struct OpenMpBackend {
 
   template <class F>
   void for_each(int n, const F& f) {
+    if constexpr (requires { f.block(0, 0); }) {
+#pragma omp parallel for schedule(dynamic, 1)
+      for (int begin = 0; begin < n; begin += F::block_size) f.block(begin, std::min(n, begin + F::block_size));
+    } else {
 #pragma omp parallel for schedule(dynamic, 128)
-    for (int i = 0; i < n; ++i) f(i);
+      for (int i = 0; i < n; ++i) f(i);
+    }
   }
   template <class F>
   void single(const F& f) {

@@ -382,13 +382,9 @@ class ParticleSimulation final : public Simulation {
       backend_.upload(array, reinterpret_cast<const U*>(arrays[next].bytes.data()));
       ++next;
     });
-    for (int k = 0; k < D && two_positions; ++k) {
-      if (n_water_) convert(water_.x[k], water_.position[k]);
-      if (n_soil_) convert(soil_.x[k], soil_.position[k]);
-    }
-    if (n_water_) mark_cells(water_);
-    if (n_soil_) mark_cells(soil_);
-    if (n_bodies_) mark_cells(bodies_);
+    if (n_water_) follow_order(water_);
+    if (n_soil_) follow_order(soil_);
+    if (n_bodies_) follow_order(bodies_);
   }
 
   std::vector<PhaseTime> timings() const override {
@@ -655,11 +651,16 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_) sort_phase(soil_);
     if (n_bodies_) sort_phase(bodies_);
   }
-  void sort_phase(Bodies& bodies) { sort_particles(bodies); }
   template <class Phase>
   void sort_phase(Phase& phase) {
     sort_particles(phase);
-    if constexpr (two_positions)
+    follow_order(phase);
+  }
+  /// What is made of the particles in their sorted order before any pass reads them.
+  template <class Phase>
+  void follow_order(Phase& phase) {
+    mark_cells(phase);
+    if constexpr (two_positions && !std::is_same_v<Phase, Bodies>)
       for (int k = 0; k < D; ++k) convert(phase.x[k], phase.position[k]);
   }
   template <class Phase>
@@ -667,7 +668,6 @@ class ParticleSimulation final : public Simulation {
     Spare& spare = phase.spare;
     if (spare.order.size() != phase.key.size()) spare.order = Array<int>(phase.key.size());
     backend_.sort_by_cell(phase.key, grid_.cells, spare.order, phase.start);
-    mark_cells(phase);
     phase.carried([&](auto& q, const char*) {
       if (!q.size()) return;
       auto& to = spare.of(q);

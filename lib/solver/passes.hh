@@ -166,91 +166,120 @@ struct Motion : Pass<Tr> {
       double d;
       unsigned long long u;
     } bits{x};
-    return ((bits.u >> 52) & 0x7ff) != 0x7ff && x < limit && x > -limit;
+    return (((bits.u >> 52) & 0x7ff) != 0x7ff) & (x < limit) & (x > -limit);
   }
 
-  template <class View>
-  LGIW_FN void move(const View& w, int i) const {
+  /// What is the same for all particles in a step.
+  struct Manner {
+    bool held, verlet, euler, settling, shifted;
+  };
+  LGIW_FN Manner manner() const {
     const StepState& st = *this->state;
+    return {!is_water && st.settling == int(Settling::water), this->parameters.verlet, st.euler_countdown == 0,
+            st.settling != 0, is_water && this->parameters.shifting.strength > 0};
+  }
+  /// What a step makes of a particle. Numbers instead of truth values, of which GCC makes no vectors: 0 where it is
+  /// sound, and where it is inside.
+  struct Moved {
+    Vec<T, D> v;
+    Vec<double, D> x;
+    double unsound, outside;
+  };
+  template <class View, class How>
+  LGIW_FN Moved moved(const View& w, int i, const StepState& st, const How& how) const {
     const auto& p = this->parameters;
+    Moved to;
+    to.unsound = to.outside = 0;
+    double speed2 = 0;
+    const double z = double(w.position[D - 1][i]);
+    LGIW_COMPONENTS
+    for (int k = 0; k < D; ++k) {
+      T v = w.v[k][i];
+      const T a = w.a[k][i];
+      double dx;
+      if (how.held) {
+        v = 0, dx = 0;
+      } else if (how.verlet) {
+        const T next = how.euler ? v + T(st.dt) * a : w.v_previous[k][i] + T(st.dt + st.dt_previous) * a;
+        dx = st.dt * double(v) + 0.5 * st.dt * st.dt * double(a);
+        v = next;
+      } else {
+        v += T(0.5 * (st.dt + st.dt_previous)) * a;
+        if (how.settling) v *= T(1 / (1 + st.dt * double(is_water ? p.settle_rate : p.soil_settle_rate)));
+        dx = st.dt * double(v);
+      }
+      if constexpr (is_water) {
+        if (how.shifted) dx += st.dt * double(w.shift[k][i]);
+      }
+      const P position = P(double(w.position[k][i]) + dx);
+      double x = double(position);
+      to.unsound = sound(x, 1e12) ? to.unsound : 1;
+      bool inside = within(k, x);
+      if (k < D - 1) {
+        // Nothing passes the walls along the sides of the domain: what the pressure of thin, slow sheets lets through
+        // stays at their surface.
+        const bool below = (x < p.low[k]) & (z < p.side_top[2 * k]);
+        const bool above = (x > p.high[k]) & (z < p.side_top[2 * k + 1]);
+        x = below ? p.low[k] : (above ? p.high[k] : x);
+        v = below | above ? T(0) : v;
+        inside = inside | below | above;
+      }
+      speed2 += double(v) * double(v);
+      to.outside = inside ? to.outside : 1;
+      to.v.c[k] = v, to.x.c[k] = x;
+    }
+    to.unsound = sound(speed2, double(p.speed_limit) * double(p.speed_limit)) ? to.unsound : 1;
+    return to;
+  }
+  LGIW_FN bool within(int k, double x) const {
+    return (x >= this->parameters.low[k]) & (x <= this->parameters.high[k]);
+  }
+  LGIW_FN int key_of(const Vec<double, D>& x) const {
+    Vec<T, D> rounded;  // the passes look for their cell with positions in T
+    LGIW_COMPONENTS
+    for (int k = 0; k < D; ++k) rounded.c[k] = T(x.c[k]);
+    return this->grid.cell(rounded);
+  }
+
+  LGIW_FN const auto& own() const {
+    if constexpr (is_water)
+      return this->water;
+    else
+      return this->soil;
+  }
+  LGIW_FN void operator()(int i) const {
+    const auto& p = this->parameters;
+    const auto& w = own();
     if (this->idle()) return;
     if (i >= w.start[this->grid.cells]) {  // lost earlier: stays where it was last
       w.key[i] = this->grid.cells;
       return;
     }
-    const bool held = !is_water && st.settling == int(Settling::water);
-    Vec<double, D> x;
-    bool fine = true, inside = true;
-    double speed2 = 0;
+    const Manner how = manner();
+    const Moved to = moved(w, i, *this->state, how);
+    bool inside = true;
     for (int k = 0; k < D; ++k) {
-      T v = w.v[k][i];
-      const T a = w.a[k][i];
-      double dx;
-      if (held) {
-        v = 0, dx = 0;
-      } else if (p.verlet) {
-        const bool euler = st.euler_countdown == 0;
-        const T next = euler ? v + T(st.dt) * a : w.v_previous[k][i] + T(st.dt + st.dt_previous) * a;
-        dx = st.dt * double(v) + 0.5 * st.dt * st.dt * double(a);
-        w.v_previous[k][i] = v;
-        v = next;
-      } else {
-        v += T(0.5 * (st.dt + st.dt_previous)) * a;
-        if (st.settling) v *= T(1 / (1 + st.dt * double(is_water ? p.settle_rate : p.soil_settle_rate)));
-        dx = st.dt * double(v);
-      }
-      if constexpr (is_water) {
-        if (w.shift[k]) dx += st.dt * double(w.shift[k][i]);
-      }
-      const P position = P(double(w.position[k][i]) + dx);
-      fine = fine && sound(double(position), 1e12);
-      x.c[k] = double(position);
-      if (k < D - 1 && stopped_by_side(k, x.c[k], double(w.position[D - 1][i]))) v = 0;
-      w.v[k][i] = v;
-      speed2 += double(v) * double(v);
-      inside = inside && x.c[k] >= p.low[k] && x.c[k] <= p.high[k];
-      if (inside) w.position[k][i] = P(x.c[k]);
+      if (how.verlet && !how.held) w.v_previous[k][i] = w.v[k][i];
+      w.v[k][i] = to.v.c[k];
+      inside = inside && within(k, to.x.c[k]);
+      if (inside) w.position[k][i] = P(to.x.c[k]);
     }
-    fine = fine && sound(speed2, double(p.speed_limit) * double(p.speed_limit));
-    if (!fine) {
+    if (to.unsound > 0) {
       note_failure(failed, w.id[i]);
       w.key[i] = this->grid.cells;
-      return;
-    }
-    if (!inside) {
+    } else if (to.outside > 0) {
       for (int k = 0; k < D; ++k) {
-        const double edge = x.c[k] < p.low[k] ? p.low[k] : (x.c[k] > p.high[k] ? p.high[k] : x.c[k]);
+        const double x = to.x.c[k], edge = x < p.low[k] ? p.low[k] : (x > p.high[k] ? p.high[k] : x);
         w.position[k][i] = P(edge);
         w.v[k][i] = 0;
       }
       count_lost();
       w.key[i] = this->grid.cells;
     } else {
-      Vec<T, D> rounded;  // the passes look for their cell with positions in T
-      for (int k = 0; k < D; ++k) rounded.c[k] = T(x.c[k]);
-      w.key[i] = this->grid.cell(rounded);
+      w.key[i] = key_of(to.x);
     }
   }
-  /// Nothing passes the walls along the sides of the domain: what the pressure of thin, slow sheets lets through stays
-  /// at their surface. True where that happened.
-  LGIW_FN bool stopped_by_side(int k, double& x, double z) const {
-    const auto& p = this->parameters;
-    if (x < p.low[k] && z < p.side_top[2 * k]) {
-      x = p.low[k];
-      return true;
-    }
-    if (x > p.high[k] && z < p.side_top[2 * k + 1]) {
-      x = p.high[k];
-      return true;
-    }
-    return false;
-  }
-  LGIW_FN void operator()(int i) const {
-    if constexpr (is_water)
-      move(this->water, i);
-    else
-      move(this->soil, i);
-  }
+
   LGIW_FN void count_lost() const {
 #if defined(__CUDA_ARCH__)
     atomicAdd(lost, 1);
@@ -259,6 +288,54 @@ struct Motion : Pass<Tr> {
     ++*lost;
 #endif
   }
+
+#if !defined(__CUDACC__)
+  /// On a host: the particles [begin, end), of which there are at most block_size. Nearly all of them remain in the
+  /// domain, which takes no branch: they are moved side by side, the others as above.
+  static constexpr int block_size = 256;
+  void block(int begin, int end) const {
+    const Manner how = manner();
+    const bool usual = !(this->idle() || how.held || how.settling || how.shifted || (how.verlet && how.euler));
+    const int active = own().start[this->grid.cells], last = usual ? (end < active ? end : active) : begin;
+    double left[block_size];
+    if (how.verlet)
+      move_usual<true>(begin, last, left);
+    else
+      move_usual<false>(begin, last, left);
+    for (int i = begin; i < end; ++i)
+      if (i >= last || left[i - begin] > 0) (*this)(i);
+  }
+
+ private:
+  template <bool by_verlet>
+  struct Usual {
+    static constexpr bool held = false, verlet = by_verlet, euler = false, settling = false, shifted = false;
+  };
+  /// Moves those that remain, and marks the others, which are left as they are.
+  template <bool verlet>
+  void move_usual(int begin, int end, double* left) const {
+    const Motion self = *this;  // nothing that is written here can change it, as the compiler sees
+    const StepState st = *this->state;
+    const auto& w = self.own();
+#pragma omp simd
+    for (int i = begin; i < end; ++i) {
+      const Moved to = self.moved(w, i, st, Usual<verlet>());
+      const double amiss = to.unsound + to.outside;
+      const bool remains = amiss == 0;
+      left[i - begin] = amiss;
+      Vec<double, D> x;
+      LGIW_COMPONENTS
+      for (int k = 0; k < D; ++k) {
+        const T v = w.v[k][i];
+        if (verlet) w.v_previous[k][i] = remains ? v : w.v_previous[k][i];
+        w.v[k][i] = remains ? to.v.c[k] : v;
+        w.position[k][i] = remains ? P(to.x.c[k]) : w.position[k][i];
+        x.c[k] = remains ? to.x.c[k] : self.parameters.low[k];
+      }
+      w.key[i] = self.key_of(x);
+    }
+  }
+#endif
 };
 
 /// Where the bodies are at the end of a step, once a step. Rates use the velocity with which the particles move
