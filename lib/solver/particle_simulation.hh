@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <span>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "base/error.hh"
 #include "solver/passes.hh"
@@ -700,13 +700,30 @@ class ParticleSimulation final : public Simulation {
     backend_.download(values.data(), from);
     return values;
   }
-  /// The values of an array until it changes: a copy only where the host cannot read it as it is.
+  /// The values of an array, until it changes: a copy only where the host cannot read it as it is.
   template <class U>
-  auto readable(const Array<U>& from) const {
-    if constexpr (Backend::on_host)
-      return std::span<const U>(from.data(), from.size());
-    else
-      return host(from);
+  class Readable {
+   public:
+    Readable(const Backend& backend, const Array<U>& from) : values_(from.data()), size_(from.size()) {
+      if constexpr (!Backend::on_host) {
+        copy_.resize(size_);
+        backend.download(copy_.data(), from);
+        values_ = copy_.data();
+      }
+    }
+    Readable(const Readable&) = delete;
+    Readable& operator=(const Readable&) = delete;
+    const U& operator[](std::size_t i) const { return values_[i]; }
+    std::size_t size() const { return size_; }
+
+   private:
+    std::vector<U> copy_;
+    const U* values_;
+    std::size_t size_;
+  };
+  template <class U>
+  Readable<U> readable(const Array<U>& from) const {
+    return Readable<U>(backend_, from);
   }
   /// How many particles are still there.
   int active(const Array<int>& start) const {
@@ -843,14 +860,14 @@ class ParticleSimulation final : public Simulation {
   }
 
   // Into the order of the particles file.
-  using Ids = std::span<const unsigned>;
-  void by_id(std::vector<float>& out, const Array<T>& field, Ids id) const {
+  using Ids = Readable<unsigned>;
+  void by_id(std::vector<float>& out, const Array<T>& field, const Ids& id) const {
     const auto values = readable(field);
     out.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) out[id[i]] = float(values[i]);
   }
   template <class Out, class In>
-  void interleave(std::vector<Out>& out, const Array<In>* field, Ids id, double factor = 1) const {
+  void interleave(std::vector<Out>& out, const Array<In>* field, const Ids& id, double factor = 1) const {
     out.assign(3 * id.size(), Out(0));
     for (int k = 0; k < D; ++k) {
       const auto values = readable(field[k]);
@@ -858,21 +875,21 @@ class ParticleSimulation final : public Simulation {
         out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
     }
   }
-  void positions(std::vector<double>& out, const Array<P>* field, Ids id) const { interleave(out, field, id); }
-  void vectors(std::vector<float>& out, const Array<T>* field, Ids id) const { interleave(out, field, id); }
-  void forces(std::vector<double>& out, const Array<T>* field, Ids id, double mass) const {
+  void positions(std::vector<double>& out, const Array<P>* field, const Ids& id) const { interleave(out, field, id); }
+  void vectors(std::vector<float>& out, const Array<T>* field, const Ids& id) const { interleave(out, field, id); }
+  void forces(std::vector<double>& out, const Array<T>* field, const Ids& id, double mass) const {
     interleave(out, field, id, mass);
     for (std::size_t i = 0; i < id.size(); ++i)
       for (int k = 0; k < D; ++k) out[3 * i + axis(k)] -= mass * double(p_.gravity.c[k]);
   }
-  void stresses(std::vector<float>& out, const Array<T>* field, Ids id) const {
+  void stresses(std::vector<float>& out, const Array<T>* field, const Ids& id) const {
     out.assign(6 * id.size(), 0.f);
     for (int c = 0; c < S; ++c) {
       const auto values = readable(field[c]);
       for (std::size_t i = 0; i < id.size(); ++i) out[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
     }
   }
-  void lost(std::vector<unsigned char>& out, const Array<int>& start, Ids id) const {
+  void lost(std::vector<unsigned char>& out, const Array<int>& start, const Ids& id) const {
     out.assign(id.size(), 0);
     for (std::size_t i = active(start); i < id.size(); ++i) out[id[i]] = 1;
   }
