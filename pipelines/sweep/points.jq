@@ -15,5 +15,5 @@ include "sweep/values";
 | (if $quantity | endswith("m3") then if $largest >= 1e4 then 1e-6 else 1 end else 1 end) as $unit
 | [$key, ($names[$quantity] | if $unit == 1 then sub("million "; "") else . end),
    (if $numbers then $value else ($order | index([$value])) end),
-   ($value | shown($long) | gsub(","; "")), .[$quantity] * $unit]
+   ($value | shown($long) | gsub(","; "") | sub("^[^ ]*/(?=[^/ ]+$)"; "")), .[$quantity] * $unit]  # of files the name
 | @csv | gsub("\""; "")
