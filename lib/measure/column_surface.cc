@@ -128,25 +128,24 @@ class PhaseBins {
   explicit PhaseBins(const BinGrid& grid) : grid_(grid) {}
 
   void fill(const ColumnParticles& particles, std::size_t first, std::size_t count) {
-    const BinGrid& grid = grid_;
-    start_.assign(grid.nx * grid.ny + 1, 0);
+    start_.assign(grid_.nx * grid_.ny + 1, 0);
     const auto bin_of = [&](std::size_t p) -> int64_t {
       const float* r = particles.xyz + 3 * p;
       if (particles.lost && particles.lost[p]) return -1;
       if (!std::isfinite(r[2])) return -1;
-      const double u = (r[0] - grid.x0) / grid.edge, v = grid.flat() ? 0 : (r[1] - grid.y0) / grid.edge;
-      if (!(u >= 0 && u < double(grid.nx) && v >= 0 && v < double(grid.ny))) return -1;
-      return int64_t(v) * int64_t(grid.nx) + int64_t(u);
+      const double u = (r[0] - grid_.x0) / grid_.edge, v = grid_.flat() ? 0 : (r[1] - grid_.y0) / grid_.edge;
+      if (!(u >= 0 && u < double(grid_.nx) && v >= 0 && v < double(grid_.ny))) return -1;
+      return int64_t(v) * int64_t(grid_.nx) + int64_t(u);
     };
     bin_.resize(count);
 #pragma omp parallel for
     for (std::size_t k = 0; k < count; ++k) bin_[k] = bin_of(first + k);
     for (int64_t b : bin_)
       if (b >= 0) ++start_[b + 1];
-    low_ = {grid.nx, grid.ny}, high_ = {0, 0};
+    low_ = {grid_.nx, grid_.ny}, high_ = {0, 0};
     for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
       if (start_[b + 1] > 0) {
-        const std::size_t i = b % grid.nx, j = b / grid.nx;
+        const std::size_t i = b % grid_.nx, j = b / grid_.nx;
         low_ = {std::min(low_[0], i), std::min(low_[1], j)}, high_ = {std::max(high_[0], i), std::max(high_[1], j)};
       }
       start_[b + 1] += start_[b];
@@ -165,7 +164,7 @@ class PhaseBins {
       for (std::size_t k = start_[b]; k < start_[b + 1]; ++k) {
         const std::size_t p = first + uint32_t(order_[k]);
         const float* r = particles.xyz + 3 * p;
-        x_[k] = r[0], y_[k] = grid.flat() ? 0 : r[1], z_[k] = r[2];
+        x_[k] = r[0], y_[k] = grid_.flat() ? 0 : r[1], z_[k] = r[2];
         if (!particles.velocity) continue;
         const float* v = particles.velocity + 3 * p;
         square_speed_[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
