@@ -221,7 +221,7 @@ class PhaseBins {
   std::array<std::size_t, 2> low_{}, high_{};  // bins with particles lie between these
   std::vector<std::size_t> start_;
   std::vector<float> x_, y_, z_, square_speed_;
-  // While it is filled; kept for the next time, since memory new from the system costs as much time as the sort.
+  // While it is filled; kept for the next time: memory new from the system costs page faults.
   std::vector<int64_t> bin_;
   std::vector<uint64_t> order_;
   std::vector<std::size_t> next_;
@@ -543,7 +543,7 @@ class Neighbours {
 };
 
 /// The highest height at which the filled fraction rises downwards through 1/2 and more than half of it is of the
-/// column's own phase; NaN where there is none. A good guess, which may be NaN, saves a third of the work.
+/// column's own phase; NaN where there is none. A good guess, which may be NaN, saves evaluations.
 double highest_surface(Column& column, double dp, double guess) {
   if (column.empty()) return nan_value;
   // Where the surface should be by the slope, and a little beyond, so that it lies between; dp/2 at most.

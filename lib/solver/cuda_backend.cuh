@@ -96,8 +96,7 @@ struct CudaBackend {
   }
   template <class T>
   void download(T* to, const Array<T>& from) const {
-    if (from.size())
-      check_cuda(cudaMemcpy(to, from.data(), from.size() * sizeof(T), cudaMemcpyDeviceToHost), "copy from the device");
+    if (from.size()) download(to, from, 0, from.size());
   }
   /// n values from `first` on.
   template <class T>

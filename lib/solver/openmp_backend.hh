@@ -43,7 +43,7 @@ struct OpenMpBackend {
   }
   template <class T>
   void download(T* to, const Array<T>& from) const {
-    if (from.size()) std::memcpy(to, from.data(), from.size() * sizeof(T));
+    if (from.size()) download(to, from, 0, from.size());
   }
   /// n values from `first` on.
   template <class T>

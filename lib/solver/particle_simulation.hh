@@ -275,7 +275,7 @@ class ParticleSimulation final : public Simulation {
   void download(ParticleState& out) const override {
     if (n_water_) {
       const auto id = readable(water_.id);
-      positions(out.water_x, water_.position, id), vectors(out.water_v, water_.v, id);
+      interleave(out.water_x, water_.position, id), interleave(out.water_v, water_.v, id);
       by_id(out.water_excess, water_.excess, id);
       out.water_pressure.resize(out.water_excess.size());
       const EquationOfState<double> eos(model_.water_density, model_.sound_speed);
@@ -285,7 +285,7 @@ class ParticleSimulation final : public Simulation {
     }
     if (n_soil_) {
       const auto id = readable(soil_.id);
-      positions(out.soil_x, soil_.position, id), vectors(out.soil_v, soil_.v, id);
+      interleave(out.soil_x, soil_.position, id), interleave(out.soil_v, soil_.v, id);
       by_id(out.soil_adps, soil_.adps, id), stresses(out.soil_stress, soil_.stress, id);
       lost(out.soil_lost, soil_.start, id);
     }
@@ -875,8 +875,6 @@ class ParticleSimulation final : public Simulation {
         out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
     }
   }
-  void positions(std::vector<double>& out, const Array<P>* field, const Ids& id) const { interleave(out, field, id); }
-  void vectors(std::vector<float>& out, const Array<T>* field, const Ids& id) const { interleave(out, field, id); }
   void forces(std::vector<double>& out, const Array<T>* field, const Ids& id, double mass) const {
     interleave(out, field, id, mass);
     for (std::size_t i = 0; i < id.size(); ++i)

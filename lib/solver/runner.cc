@@ -714,7 +714,7 @@ class Runner {
     Checkpoint state;
   };
   std::vector<Kept> kept_;  // at most two, the newest last
-  /// Of the last output, whose memory the next one uses: new from the system it costs a fifth of an output's time.
+  /// Of the last output, whose memory the next one uses: new from the system it costs page faults.
   struct {
     ParticleState state;
     Frame frame;
