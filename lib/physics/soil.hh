@@ -161,10 +161,11 @@ LGIW_FN T rate_form_update(const SoilMaterial<T>& m, Stress<T, D>& sigma, const 
                            T dt, T pore_pressure) {
   const Deviator<T, D> old(sigma);
   const T scale = m.k_c + m.alpha_phi * (largest(T(0), -old.i1 - 3 * pore_pressure)) + m.shear * T(1e-7);
-  const bool yields = yield_function(m, old.i1, old.root_j2, pore_pressure) >= -T(1e-3) * scale;
+  const T tolerance = T(1e-3) * scale;
+  const bool yields = yield_function(m, old.i1, old.root_j2, pore_pressure) >= -tolerance;
   for (int k = 0; k < Stress<T, D>::size; ++k) sigma.c[k] += increment.c[k];
   T adps = 0;
-  if (yields && old.root_j2 > 0) {
+  if (yields && old.root_j2 > tolerance) {  // at the apex the deviator is rounding, which has any direction
     T volumetric = 0, s_eps = 0;
     for (int a = 0; a < D; ++a) {
       volumetric += l[a * D + a];

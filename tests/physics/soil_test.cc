@@ -204,6 +204,17 @@ TEST(RateForm, ConvergesToTheReturnMapping) {
   for (int c = 0; c < 4; ++c) EXPECT_NEAR(s1.c[c], s2.c[c], 2e-3 * std::fabs(trace(s2)));
 }
 
+/// At the tip of the cone the deviator is what rounding has left, and so must not give the direction of plastic flow.
+TEST(RateForm, DoesNotFollowRoundingAtTheApex) {
+  const SoilMaterial<double> m(2e6, 0.3, 25 * degree, 50, 5 * degree, Cone::plane_strain);
+  const double tip = m.k_c / m.alpha_phi / 3, rounding = 1e-10, l[4] = {0.1, 0.3, 0.2, 0.05};
+  S2 one{{tip + rounding, tip - rounding, rounding, tip}}, other{{tip - rounding, tip + rounding, -rounding, tip}};
+  const S2 increment = elastic_increment(m, one, l, 1e-4);
+  const double adps = rate_form_update(m, one, increment, l, 1e-4, 0.0);
+  EXPECT_NEAR(rate_form_update(m, other, increment, l, 1e-4, 0.0), adps, 1e-12);
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(one.c[c], other.c[c], 1e-6) << c;
+}
+
 TEST(ArtificialStress, OpposesTensilePrincipalStressesOnly) {
   const double scale = 0.5;
   const S2 plane = artificial_stress(S2{{300, -100, 0, 50}}, scale);
