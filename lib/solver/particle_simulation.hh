@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -235,7 +236,10 @@ class ParticleSimulation final : public Simulation {
     backend_.upload(state_, &st);
     int64_t done = 0;
     while (st.time < st.target && done < max_steps && (st.failed_water & st.failed_soil) == UINT32_MAX) {
-      const int64_t batch = std::min<int64_t>(Backend::steps_per_check, max_steps - done);
+      // No more than will be needed, for those beyond cost what others do.
+      const double left = std::max(1.0, std::ceil((st.target - st.time) / st.dt));
+      const int64_t batch = std::min<int64_t>(
+          max_steps - done, left < Backend::steps_per_check ? int64_t(left) : Backend::steps_per_check);
       for (int64_t k = 0; k < batch; ++k) step();
       const int64_t before = st.step;
       st = state();
@@ -323,8 +327,8 @@ class ParticleSimulation final : public Simulation {
     }
   }
   void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const override {
-    if (n_water_) forces(water, water_.a, readable(water_.id), double(p_.water_mass));
-    if (n_soil_) forces(soil, soil_.a, readable(soil_.id), double(p_.soil_mass));
+    if (n_water_) forces(water, water_, double(p_.water_mass));
+    if (n_soil_) forces(soil, soil_, double(p_.soil_mass));
   }
   InternalForces internal_forces() override {
     // What the next step reads is put back: copies cost less than a second pass.
@@ -577,6 +581,7 @@ class ParticleSimulation final : public Simulation {
 
   // One step. Leapfrog moves first and takes the rates at the new place; Verlet takes all rates where the forces are.
   void step() {
+    stepping_ = true;
     if (p_.verlet) {
       rates();
       motion();
@@ -586,6 +591,7 @@ class ParticleSimulation final : public Simulation {
     }
     evaluate();
     finish(true);
+    stepping_ = false;
   }
   void motion() {
     if (n_water_)
@@ -786,6 +792,7 @@ class ParticleSimulation final : public Simulation {
     f.wall = wall_view();
     f.bodies = body_view();
     f.state = state_.data();
+    f.stepping = stepping_;
   }
   WaterView<Tr> water_view() const {
     WaterView<Tr> w;
@@ -875,10 +882,15 @@ class ParticleSimulation final : public Simulation {
         out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
     }
   }
-  void forces(std::vector<double>& out, const Array<T>* field, const Ids& id, double mass) const {
-    interleave(out, field, id, mass);
-    for (std::size_t i = 0; i < id.size(); ++i)
-      for (int k = 0; k < D; ++k) out[3 * i + axis(k)] -= mass * double(p_.gravity.c[k]);
+  template <class Phase>
+  void forces(std::vector<double>& out, const Phase& phase, double mass) const {
+    const auto id = readable(phase.id);
+    interleave(out, phase.a, id, mass);
+    for (std::size_t i = 0, there = active(phase.start); i < id.size(); ++i)
+      for (int k = 0; k < D; ++k) {
+        double& force = out[3 * std::size_t(id[i]) + axis(k)];
+        force = i < there ? force - mass * double(p_.gravity.c[k]) : 0;  // no pass touches what is lost
+      }
   }
   void stresses(std::vector<float>& out, const Array<T>* field, const Ids& id) const {
     out.assign(6 * id.size(), 0.f);
@@ -922,6 +934,7 @@ class ParticleSimulation final : public Simulation {
   NumberType type_;
   int n_water_, n_soil_, n_wall_, n_bodies_;  // n_wall_: those that stand still; n_bodies_: those that move
   bool without_walls_ = false;                // while internal_forces() looks
+  bool stepping_ = false;                     // within step()
   Parameters<Tr> p_;
   Grid<T, D> grid_;
   Water water_;

@@ -36,6 +36,7 @@ struct Pass {
   BodyView<Tr> bodies;
   Near<Tr> copies;  // empty where a pass looks among all particles
   const StepState* state;
+  bool stepping;  // part of a step; else the present state is evaluated whatever the time
 
   template <class View>
   LGIW_FN int cell_of([[maybe_unused]] const View& view, [[maybe_unused]] int i) const {
@@ -117,6 +118,14 @@ struct Pass {
   /// nothing.
   LGIW_FN bool idle() const {
     return !(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX;
+  }
+  /// Part of a step that a device still had queued: the forces of the last step remain, which depend on its length
+  /// where walls rub. A host queues none.
+  LGIW_FN bool superfluous() const {
+    if constexpr (Tr::tiles)
+      return false;
+    else
+      return stepping && idle();
   }
   /// Half the step in which the particles have just moved, where rates are taken after the motion (leapfrog). Rates
   /// need r_ij at the time of v_ij, half a step ago: r - half v. With the later r each pair adds v_ij^2 dt / 2, and
@@ -955,7 +964,7 @@ struct WaterForces : WaterPairForces<Tr> {
   LGIW_FN Limits<T> operator()(int i) const {
     const auto& p = this->parameters;
     const auto& w = this->water;
-    if (i >= w.start[this->grid.cells]) return {};
+    if (this->superfluous() || i >= w.start[this->grid.cells]) return {};
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
@@ -1069,7 +1078,7 @@ struct SoilForces : SoilPairForces<Tr> {
   LGIW_FN Limits<T> operator()(int i) const {
     const auto& p = this->parameters;
     const auto& s = this->soil;
-    if (i >= s.start[this->grid.cells]) return {};
+    if (this->superfluous() || i >= s.start[this->grid.cells]) return {};
     const int cell = this->cell_of(s, i);
     const V x = B::load(s.x, i), v = B::load(s.v, i);
     const Stress<T, D> sigma = B::load_stress(s.stress, i);

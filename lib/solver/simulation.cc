@@ -44,7 +44,7 @@ int lanes_to_use() {
   if (names.empty())
     throw BackendError(
         "--backend cpu is not possible (this processor lacks the instructions that the build was made for) build "
-        "with -DLGIW_CPU_LANES=4");
+        "without -DLGIW_CPU_LANES, for all of them");
   throw InputError("LGIW_INSTRUCTIONS=" + name + " is not possible",
                    "it is unknown, or this build or this processor lacks it",
                    "set it to " + names + ", or leave it out for the widest");

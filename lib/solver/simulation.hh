@@ -81,7 +81,7 @@ class Simulation {
   virtual void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const = 0;
   /// Where the wall particles of moving bodies are, [n,3], and their indices among the wall particles, [n].
   virtual void download_bodies(std::vector<double>& x, std::vector<unsigned>& wall_id) const = 0;
-  /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3].
+  /// Forces now acting on the particles, by id: mass times acceleration without gravity, N; [n,3]. 0 on lost ones.
   virtual void download_accelerations(std::vector<double>& water, std::vector<double>& soil) const = 0;
   /// Computes the forces of the present state once more, without walls; the state stays as it is.
   virtual InternalForces internal_forces() = 0;
