@@ -132,24 +132,25 @@ struct CudaBackend {
     launched("a pass");
   }
 
-  /// Stable radix sort by key. The keys come out sorted as well; Motion sets them anew before the next sort.
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
+  /// Stable radix sort by key, to and fro between the arrays and the memory of two as long that hold nothing now; CUB
+  /// would take as much besides. The keys come out sorted as well; Motion sets them anew before the next sort.
+  template <class A, class B>
+  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start,
+                    const Array<A>& spare, const Array<B>& other_spare) {
+    static_assert(sizeof(A) >= sizeof(int) && sizeof(B) >= sizeof(int));
     const int n = int(key.size());
     if (n == 0) return;
-    if (sorted_key_.size() < key.size()) sorted_key_ = Array<int>(key.size()), identity_ = Array<int>(key.size());
-    iota_kernel<<<blocks(n), block>>>(n, identity_.data());
+    cub::DoubleBuffer<int> keys(key.data(), reinterpret_cast<int*>(spare.data())),
+        orders(order.data(), reinterpret_cast<int*>(other_spare.data()));
+    iota_kernel<<<blocks(n), block>>>(n, orders.Current());
     int bits = 1;
     while (bits < 31 && (cells >> bits) > 0) ++bits;
     std::size_t bytes = 0;
-    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, key.data(), sorted_key_.data(), identity_.data(),
-                                               order.data(), n, 0, bits),
-               "sort");
+    check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, keys, orders, n, 0, bits), "sort");
     if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
-    check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, key.data(), sorted_key_.data(), identity_.data(),
-                                               order.data(), n, 0, bits),
-               "sort");
-    check_cuda(cudaMemcpyAsync(key.data(), sorted_key_.data(), n * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
-    cell_starts_kernel<<<blocks(n + 1), block>>>(n, sorted_key_.data(), cells, start.data());
+    check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, keys, orders, n, 0, bits), "sort");
+    take_back(key, keys.Current()), take_back(order, orders.Current());
+    cell_starts_kernel<<<blocks(n + 1), block>>>(n, key.data(), cells, start.data());
     launched("sort");
   }
   template <class T>
@@ -169,9 +170,16 @@ struct CudaBackend {
     return std::string("CUDA, ") + p.name;
   }
   std::string instructions() const { return ""; }
+  /// Of its own.
+  std::size_t bytes() const { return work_.size(); }
 
  private:
-  Array<int> sorted_key_, identity_;
+  /// Where the sort has ended in the other array.
+  static void take_back(const Array<int>& to, const int* sorted) {
+    if (sorted != to.data())
+      check_cuda(cudaMemcpyAsync(to.data(), sorted, to.size() * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
+  }
+
   Array<unsigned char> work_;
 };
 

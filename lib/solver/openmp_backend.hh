@@ -118,7 +118,13 @@ struct OpenMpBackend {
     }
   }
 
-  /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c.
+  /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c. Needs
+  /// no memory of others.
+  template <class A, class B>
+  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start, const Array<A>&,
+                    const Array<B>&) {
+    sort_by_cell(key, cells, order, start);
+  }
   void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
     const int n = int(key.size()), threads = omp_get_max_threads();
     // A count of all cells a thread; not where the domain is so empty, or the scene so small, that these cost more.
@@ -216,6 +222,8 @@ struct OpenMpBackend {
       for (int i = active; i < own.n; ++i) run(pass, i);  // those that have left the domain
     }
   }
+  /// Of its own; without what grows with the number of threads.
+  std::size_t bytes() const { return marks_.size(); }
   double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
   void wait() const {}
   std::string name() const { return "CPU"; }

@@ -408,6 +408,7 @@ class ParticleSimulation final : public Simulation {
     auto& self = const_cast<ParticleSimulation&>(*this);
     of(self.water_, sum.water), of(self.soil_, sum.soil), of(self.bodies_, sum.wall);
     self.wall_.all(to(sum.wall));
+    sum.shared = int64_t(backend_.bytes());
     return sum;
   }
   std::string device() const override { return backend_.name(); }
@@ -672,12 +673,15 @@ class ParticleSimulation final : public Simulation {
   template <class Phase>
   void sort_particles(Phase& phase) {
     Spare& spare = phase.spare;
-    if (spare.order.size() != phase.key.size()) spare.order = Array<int>(phase.key.size());
-    backend_.sort_by_cell(phase.key, grid_.cells, spare.order, phase.start);
+    const auto sized = [n = phase.key.size()](auto& q) -> auto& {
+      if (q.size() != n) q = std::remove_reference_t<decltype(q)>(n);
+      return q;
+    };
+    // Before a field has been gathered, what it goes to is free.
+    backend_.sort_by_cell(phase.key, grid_.cells, sized(spare.order), phase.start, sized(spare.t), sized(spare.id));
     phase.carried([&](auto& q, const char*) {
       if (!q.size()) return;
-      auto& to = spare.of(q);
-      if (to.size() != q.size()) to = std::remove_reference_t<decltype(q)>(q.size());
+      auto& to = sized(spare.of(q));
       backend_.gather(to, q, spare.order);
       q.swap(to);
     });

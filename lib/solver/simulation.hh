@@ -63,7 +63,8 @@ struct PhaseTime {
 /// Memory by phase, each with its cells.
 struct PhaseBytes {
   int64_t water = 0, soil = 0, wall = 0;  // wall: moving bodies too
-  int64_t total() const { return water + soil + wall; }
+  int64_t shared = 0;                     // by the phases, which are sorted in turn
+  int64_t total() const { return water + soil + wall + shared; }
 };
 
 class Simulation {

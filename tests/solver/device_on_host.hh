@@ -2,6 +2,12 @@
 #pragma once
 
 #include <sys/mman.h>
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(address, bytes) (void(address), void(bytes))
+#define ASAN_UNPOISON_MEMORY_REGION(address, bytes) (void(address), void(bytes))
+#endif
 
 #include <algorithm>
 #include <cstring>
@@ -19,7 +25,8 @@ namespace lgiw::test {
 /// Stands in for CudaBackend (solver/cuda_backend.cuh): the passes look among all particles in rows of cells, a step
 /// after the other is queued without a look at the clock, and what one thread does is in no order with the others:
 /// here in one that `seed` shuffles. The memory cannot be touched but by a pass or a copy, and holds NaN until it is
-/// written. Launches, atomics and CUB remain CUDA's own.
+/// written; a sanitizer sees what lies outside of an array.
+/// Launches, atomics and CUB remain CUDA's own.
 class DeviceOnHost {
  public:
   static constexpr bool on_host = false;
@@ -78,10 +85,14 @@ class DeviceOnHost {
       limits->mu = std::max(limits->mu, mine.mu);
     }
   }
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
+  template <class A, class B>
+  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start,
+                    const Array<A>& spare, const Array<B>& other_spare) {
     const Open open;
     ++sorts();
     int *const keys = key.data(), n = int(key.size());
+    std::memset(static_cast<void*>(spare.data()), 0xff, sizeof(int) * std::size_t(n));  // it may be used as memory
+    std::memset(static_cast<void*>(other_spare.data()), 0xff, sizeof(int) * std::size_t(n));
     std::iota(order.data(), order.data() + n, 0);
     std::stable_sort(order.data(), order.data() + n, [&](int a, int b) { return keys[a] < keys[b]; });
     std::sort(keys, keys + n);
@@ -100,6 +111,7 @@ class DeviceOnHost {
   double now() { return 0; }
   std::string name() const { return "a device on the host"; }
   std::string instructions() const { return ""; }
+  std::size_t bytes() const { return 0; }
 
  private:
   class Arena {
@@ -109,17 +121,19 @@ class DeviceOnHost {
     }
     void* take(std::size_t bytes) {
       char* const at = data_ + used_;
-      used_ += (bytes + 255) / 256 * 256;  // aligned as cudaMalloc does
+      used_ += (bytes + 511) / 256 * 256;  // aligned as cudaMalloc does, with room between
       if (used_ > size) throw std::runtime_error("too many arrays for this test");
       ++arrays_;
       allow(true);
       std::memset(at, 0xff, bytes);  // NaN
       allow(false);
+      ASAN_POISON_MEMORY_REGION(at + bytes, std::size_t(data_ + used_ - at) - bytes);
       return at;
     }
     /// Nothing is used twice until all is given back.
     void give() {
       if (--arrays_ > 0) return;
+      ASAN_UNPOISON_MEMORY_REGION(data_, used_);
       madvise(data_, used_, MADV_DONTNEED);
       used_ = 0;
     }

@@ -57,6 +57,25 @@ TEST(DeviceOnHost, EqualsCpuInDouble3D) { compare(3, NumberType::double_, 1e-9);
 TEST(DeviceOnHost, EqualsCpuInMixed3D) { compare(3, NumberType::mixed, 1e-3); }
 TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-3); }
 
+/// What a scene of twice the particles in the same cells holds more: what 200 M particles need of 80 GB.
+TEST(DeviceOnHost, APlaceInMemoryIsSmall) {
+  const Cloud once = cloud({3});
+  Cloud twice = once;
+  InitialParticles& p = twice.in;
+  const auto repeat = [](auto& values) {
+    const auto copy = values;
+    values.insert(values.end(), copy.begin(), copy.end());
+  };
+  repeat(p.water_x), repeat(p.water_v), repeat(p.water_excess);
+  repeat(p.soil_x), repeat(p.soil_v), repeat(p.soil_stress);
+  const PhaseBytes a = on_device(once, NumberType::mixed)->bytes(), b = on_device(twice, NumberType::mixed)->bytes();
+  const double water = double(b.water - a.water) / double(once.in.n_water()),
+               soil = double(b.soil - a.soil) / double(once.in.n_soil());
+  std::printf("measured: on a device, mixed precision, %g bytes a particle of water, %g of soil\n", water, soil);
+  EXPECT_LE(water, 100);
+  EXPECT_LE(soil, 200);
+}
+
 /// Reads of what another thread of the same pass writes would show.
 TEST(DeviceOnHost, ThreadsInAnyOrderDoTheSame) {
   for (int dimension : {2, 3})
