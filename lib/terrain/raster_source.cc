@@ -150,6 +150,16 @@ RasterSource::RasterSource(const std::string& path, std::string what, Provenance
     crs_.StripVertical();
     crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   }
+  // PROJ takes off turn after turn from degrees, for ever where a turn is less than their rounding.
+  const int columns = data_->GetRasterXSize(), rows = data_->GetRasterYSize();
+  const bool in_degrees = !crs_.IsEmpty() && crs_.IsGeographic();
+  for (int corner = 0; corner < 4; ++corner) {
+    const auto [x, y] = at_pixel(geo_, corner % 2 * columns, corner / 2 * rows);
+    LGIW_VALIDATE(std::hypot(x, y) <= (in_degrees ? 1000 : 1e9),
+                  what_ + text(": one of its corners lies at %.8g, %.8g", x, y),
+                  in_degrees ? "it is in degrees, and that is more than a turn" : "no map is that wide",
+                  "repair the geotransform, e.g. with gdal_translate -a_ullr");
+  }
   std::vector<std::string> files{path};
   char** list = data_->GetFileList();
   for (char** file = list; file && *file; ++file) files.push_back(*file);

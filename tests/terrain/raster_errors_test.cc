@@ -161,6 +161,15 @@ TEST_F(RasterErrors, NoGeoreference) {
   EXPECT_HAS(error_of(raster_case({file})), "has no georeference");
 }
 
+/// In degrees such a place hung the search for its UTM zone.
+TEST_F(RasterErrors, BeyondAnyMap) {
+  for (const char* crs : {"EPSG:4326", "EPSG:32611"}) {
+    const std::string file = write_tif(scratch("far.tif"), {1e25, 1e22, 0, 50, 0, -10}, crs, rows);
+    EXPECT_HAS(error_of(raster_case({file})), "far.tif': one of its corners lies at 1e+25, 50 (");
+    std::filesystem::remove(file);
+  }
+}
+
 TEST_F(RasterErrors, TwoDimensionalCase) {
   Case c = good();
   c.dimension = 2;
