@@ -152,7 +152,7 @@ RasterSource::RasterSource(const std::string& path, std::string what, Provenance
   }
   // PROJ takes off turn after turn from degrees, for ever where a turn is less than their rounding.
   const int columns = data_->GetRasterXSize(), rows = data_->GetRasterYSize();
-  const bool in_degrees = !crs_.IsEmpty() && crs_.IsGeographic();
+  const bool in_degrees = crs_.IsGeographic();
   for (int corner = 0; corner < 4; ++corner) {
     const auto [x, y] = at_pixel(geo_, corner % 2 * columns, corner / 2 * rows);
     LGIW_VALIDATE(std::hypot(x, y) <= (in_degrees ? 1000 : 1e9),

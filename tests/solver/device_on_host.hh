@@ -25,8 +25,7 @@ namespace lgiw::test {
 /// Stands in for CudaBackend (solver/cuda_backend.cuh): the passes look among all particles in rows of cells, a step
 /// after the other is queued without a look at the clock, and what one thread does is in no order with the others:
 /// here in one that `seed` shuffles. The memory cannot be touched but by a pass or a copy, and holds NaN until it is
-/// written; a sanitizer sees what lies outside of an array.
-/// Launches, atomics and CUB remain CUDA's own.
+/// written; a sanitizer sees what lies outside of an array. Launches, atomics and CUB remain CUDA's own.
 class DeviceOnHost {
  public:
   static constexpr bool on_host = false;
