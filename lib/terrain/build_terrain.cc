@@ -42,6 +42,7 @@ Mosaic open_sources(const Case& c, TerrainModel& model, Provenance& provenance) 
 RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model) {
   Extent common{-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL}, all{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   const RasterSource* finest = &mosaic.sources[0];
+  double cells = 0;
   for (const RasterSource& source : mosaic.sources) {
     const Extent& e = source.extent();
     // A local map that is spliced into what lies below it narrows nothing.
@@ -52,6 +53,7 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
       all[k] = std::min(all[k], e[k]), all[k + 2] = std::max(all[k + 2], e[k + 2]);
     }
     if (source.pixel() <= finest->pixel() * (1 + 1e-9)) finest = &source;
+    cells += source.cells();
   }
   const double pixel = finest->pixel();
   Extent window = common;
@@ -87,6 +89,11 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
                   at_key(c, "terrain.window") + "the terrain has fewer than 3 x 3 nodes",
                   describe(window) + text(" at a spacing of %g m", grid.dx), "enlarge terrain.window");
     if (count[0] * count[1] <= double(max_cells)) {
+      LGIW_VALIDATE(count[0] * count[1] <= std::max(max_nodes_of_any_source, max_nodes_per_cell * cells),
+                    at_key(c, "terrain.window") +
+                        text("the terrain would have %.4g x %.4g nodes of %g m", count[0], count[1], grid.dx),
+                    text("%s is so fine; its sources have %.0f cells in all", finest->what().c_str(), cells),
+                    "cut it with terrain.window to what the finest source is for, or resample that source");
       grid.nx = std::size_t(count[0]), grid.ny = std::size_t(count[1]);
       grid.x0 = first[0], grid.y0 = first[1];
       if (factor > 1)

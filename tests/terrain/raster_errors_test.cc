@@ -170,6 +170,17 @@ TEST_F(RasterErrors, BeyondAnyMap) {
   }
 }
 
+TEST_F(RasterErrors, FarMoreNodesThanTheSourcesHaveCells) {
+  const auto flat = [](double, double) { return 1.0; };
+  const std::string coarse = write_asc(scratch("coarse.asc"), 0, 0, 1000, rows_of(3, 3, 0, 0, 1000, flat));
+  Case c = raster_case({coarse, write_asc(scratch("fine.asc"), 500, 500, 0.5, rows_of(20, 20, 0, 0, 0.5, flat))}, 0.5);
+  const std::string error = error_of(c);
+  EXPECT_HAS(error, "the terrain would have 6000 x 6000 nodes of 0.5 m (terrain source '");
+  EXPECT_HAS(error, "fine.asc' is so fine; its sources have 409 cells in all) cut it with terrain.window");
+  c.terrain.window = {{480, 480, 530, 530}};
+  EXPECT_EQ(build(c).ground.z.size(), 100u * 100);
+}
+
 TEST_F(RasterErrors, TwoDimensionalCase) {
   Case c = good();
   c.dimension = 2;
