@@ -121,8 +121,7 @@ RunWriter::RunWriter(const std::string& path, const RunHeader& header)
   std::vector<uint8_t> phase(n, uint8_t(Phase::soil));
   std::fill_n(phase.begin(), counts.water, uint8_t(Phase::water));
   file_.write(point_data + "Phase", phase);
-  // A frame takes few chunks, of at most 32 MiB of points: their index, which HDF5 holds in memory while the file is
-  // written, takes up to a kilobyte a chunk.
+  // A frame takes few chunks, of at most 32 MiB of points: HDF5 holds their index in memory while the file is written.
   const hsize_t rows = tile(n, (hsize_t(32) << 20) / (3 * sizeof(float)));
   file_.create_dataset<float>("/VTKHDF/Points", {0, 3}, true, false, {rows, 3});
   for (const Field& field : frame_fields(counts))

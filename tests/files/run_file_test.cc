@@ -1,5 +1,7 @@
 #include "files/run_file.hh"
 
+#include <malloc.h>
+
 #include <csignal>
 #include <functional>
 #include <numeric>
@@ -174,6 +176,31 @@ TEST(RunFile, LargeMapsAreTiledAndNodesReadAsSeries) {
   EXPECT_EQ(run.soil_surface(5), std::vector<float>(map.size(), 0));
   const float first = 199 * 300 + 299;
   EXPECT_EQ(run.soil_surface_at(299, 199), (std::vector<float>{first, first + 1, first + 2, first + 3, first + 4, 0}));
+}
+
+TEST(RunFile, GrowsWithLittleMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer's allocator does not tell how much is in use";
+#endif
+  const Scratch scratch;
+  RunHeader header = small_run();
+  header.map = {300, 200, 0, 0, 1};  // two fields of six tiles
+  header.pressure_gauges.clear();
+  RunWriter writer(scratch / "r.h5", header);
+  const std::vector<float> map(header.map.size(), 1);
+  std::size_t before = 0;
+  const auto in_use = [] {
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  for (int k = 0; k < 400; ++k) {
+    writer.add_surface(k, map, map);
+    if (k % 10 == 9) writer.flush();
+    if (k == 99) before = in_use();
+  }
+  const double a_tile = (double(in_use()) - double(before)) / (300 * 12);
+  EXPECT_GT(in_use(), 1000u);
+  EXPECT_LT(a_tile, 60);
 }
 
 TEST(RunFile, RerunsAndFlushesLeaveTheSameBytes) {
