@@ -4,6 +4,7 @@
 // count in every step: /VTKHDF/Points float32 [steps*N,3] local, PointData: Phase uint8 [N] (shared by all steps),
 // Velocity float32 [.,3], Pressure float32 (scenes with water), Adps float32 (scenes with soil; 0 on water),
 // Lost uint8 (1: has left the domain; its position is the last one inside). Steps/* as VTKHDF wants them.
+// Programs need HDF5 1.10 or newer to read it.
 // Outside, group /lgiw: the attributes, bed and ground of the particles file (Format = "lgiw-run 1"), and
 //   attributes ParticleVolume (dp^D), WallCount, LeftOut (JSON list of strings), Summary (JSON, at the end)
 //   /lgiw/soil/InitialPoints float32 [n_soil,3]
