@@ -277,7 +277,7 @@ File File::create_journaled(const std::string& path) {
   set_journaled_driver(access.id(), journal);
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()));
   // All metadata stays in memory while such a file grows. The index of chunks of HDF5 1.10, an extensible array, takes
-  // some 20 bytes a chunk there, the B-tree of 1.8 300. The superblock is 1.8's still: that of 1.10 calls a file whose
+  // some 35 bytes a chunk there, the B-tree of 1.8 480. The superblock is 1.8's still: that of 1.10 calls a file whose
   // writer was killed one in use.
   if (!file || H5Fset_libver_bounds(file.id(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) write_failed(path, "", reason());
   return File(std::move(file), path, std::move(journal));
