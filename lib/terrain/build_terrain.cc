@@ -16,6 +16,9 @@ namespace {
 using namespace detail;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// A terrain of more than a million nodes and of more than this many for each cell of its sources is mostly
+/// interpolation.
+constexpr double max_nodes_per_cell = 1000, max_nodes_of_any_source = 1e6;
 
 struct Mosaic {
   std::vector<RasterSource> sources;
@@ -88,8 +91,9 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
     LGIW_VALIDATE(count[0] >= 3 && count[1] >= 3,
                   at_key(c, "terrain.window") + "the terrain has fewer than 3 x 3 nodes",
                   describe(window) + text(" at a spacing of %g m", grid.dx), "enlarge terrain.window");
-    if (count[0] * count[1] <= double(max_cells)) {
-      LGIW_VALIDATE(count[0] * count[1] <= std::max(max_nodes_of_any_source, max_nodes_per_cell * cells),
+    const double nodes = count[0] * count[1];
+    if (nodes <= double(max_cells)) {
+      LGIW_VALIDATE(nodes <= std::max(max_nodes_of_any_source, max_nodes_per_cell * cells),
                     at_key(c, "terrain.window") +
                         text("the terrain would have %.4g x %.4g nodes of %g m", count[0], count[1], grid.dx),
                     text("%s is so fine; its sources have %.0f cells in all", finest->what().c_str(), cells),
@@ -107,7 +111,7 @@ RasterGrid choose_grid(const Case& c, const Mosaic& mosaic, TerrainModel& model)
                        static_cast<long long>(max_cells), c.dp),
                   "cut it with terrain.window or choose a larger particle_spacing");
     // Straight to the factor that the numbers ask for, and no further than dp allows.
-    const double wanted = std::floor(factor * std::sqrt(count[0] * count[1] / double(max_cells)));
+    const double wanted = std::floor(factor * std::sqrt(nodes / double(max_cells)));
     factor = std::max(factor, std::min(wanted, std::floor(c.dp / pixel)) - 1);
   }
 }

@@ -13,8 +13,6 @@ namespace lgiw::detail {
 
 /// More cells than this are never held at once (0.3 GB as double); a finer source is averaged while it is read.
 inline constexpr int64_t max_cells = 40'000'000;
-/// A terrain of a million nodes and of more than this many for each cell of its sources is mostly interpolation.
-inline constexpr double max_nodes_per_cell = 1000, max_nodes_of_any_source = 1e6;
 
 /// x_min, y_min, x_max, y_max
 using Extent = std::array<double, 4>;

@@ -158,13 +158,18 @@ TEST(RunFile, IsTheTemporalVtkhdfThatReadersWant) {
   EXPECT_EQ(file.shape("/VTKHDF/PointData/Lost"), (h5::Shape{6}));
 }
 
-TEST(RunFile, LargeMapsAreTiledAndNodesReadAsSeries) {
-  const Scratch scratch;
+/// Its surfaces are two fields of six tiles.
+RunHeader tiled_run() {
   RunHeader header = small_run();
   header.map = {300, 200, 0, 0, 1};
   header.pressure_gauges.clear();
-  RunWriter writer(scratch / "r.h5", header);
-  std::vector<float> map(header.map.size());
+  return header;
+}
+
+TEST(RunFile, LargeMapsAreTiledAndNodesReadAsSeries) {
+  const Scratch scratch;
+  RunWriter writer(scratch / "r.h5", tiled_run());
+  std::vector<float> map(tiled_run().map.size());
   for (int k = 0; k < 5; ++k) {
     std::iota(map.begin(), map.end(), float(k));
     writer.add_surface(k, map, map);
@@ -183,11 +188,8 @@ TEST(RunFile, GrowsWithLittleMemory) {
   GTEST_SKIP() << "the sanitizer's allocator does not tell how much is in use";
 #endif
   const Scratch scratch;
-  RunHeader header = small_run();
-  header.map = {300, 200, 0, 0, 1};  // two fields of six tiles
-  header.pressure_gauges.clear();
-  RunWriter writer(scratch / "r.h5", header);
-  const std::vector<float> map(header.map.size(), 1);
+  RunWriter writer(scratch / "r.h5", tiled_run());
+  const std::vector<float> map(tiled_run().map.size(), 1);
   std::size_t before = 0;
   const auto in_use = [] {
     const struct mallinfo2 info = mallinfo2();
