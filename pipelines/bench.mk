@@ -2,7 +2,8 @@
 #
 #   make -C pipelines bench                  the scenes in bench/, ROUNDS times in turn: out/bench/bench.json and a table
 #   make -C pipelines bench OTHER=FOLDER     the same in turn with the tools built there, and the ratio: above 1 is faster
-#   make -C pipelines bench-scaling          cost per particle-step against size, efficiency against threads: scaling.json
+#   make -C pipelines bench-scaling          cost per particle-step against size, efficiency against threads, the fastest of ROUNDS
+#                                            in turn: scaling.json
 #   make -C pipelines bench-bars             the two runs of Huang et al. 2023 against their bars of wall time: bars.json
 #   make -C pipelines bench-kernels          pair laws, soil, copies and sort one by one (Google Benchmark): kernels.json
 #
@@ -42,22 +43,29 @@ THREADS ?= $(shell n=$$(nproc); k=1; while [ $$k -lt $$n ]; do echo $$k; k=$$((2
 SCALING_SCENES ?= water-3d coupled-3d
 SCALING_SECONDS ?= 20
 scaling := $(bench_out)/scaling
+# BENCH_FLAGS=--threads=1 asks for the sizes alone.
+scaling_threads := $(if $(findstring --threads,$(BENCH_FLAGS)),,$(THREADS))
 timed_run = LGIW_RUN=$(lgiw_run) $(here)/bench/timed-run
 
 .PHONY: bench-scaling
 bench-scaling: $(tools)
 	@rm -rf $(scaling); mkdir -p $(scaling)
 	@for scene in $(SCALING_SCENES); do \
+	  sizes=; \
 	  for size in $(SIZES); do \
-	    $(here)/bench/sized-particles $(dem2particles) $(here)/bench/$$scene/case.yaml $$size $(scaling)/particles.h5 || continue; \
-	    $(timed_run) $(scaling)/particles.h5 $(SCALING_SECONDS) $(scaling)/$$scene.sizes.$$size.json --backend cpu $(BENCH_FLAGS); \
+	    $(here)/bench/sized-particles $(dem2particles) $(here)/bench/$$scene/case.yaml $$size $(scaling)/$$size.h5 && sizes="$$sizes $$size"; \
 	  done; \
 	  $(dem2particles) $(here)/bench/$$scene/case.yaml -o $(scaling)/particles.h5 -O -q; \
-	  for threads in $(THREADS); do \
-	    $(timed_run) $(scaling)/particles.h5 $(SCALING_SECONDS) $(scaling)/$$scene.threads.$$threads.json --backend cpu --threads $$threads $(BENCH_FLAGS); \
+	  for round in $$(seq $(ROUNDS)); do \
+	    for size in $$sizes; do \
+	      $(timed_run) $(scaling)/$$size.h5 $(SCALING_SECONDS) $(scaling)/$$scene.sizes.$$size.$$round.json --backend cpu $(BENCH_FLAGS); \
+	    done; \
+	    for threads in $(scaling_threads); do \
+	      $(timed_run) $(scaling)/particles.h5 $(SCALING_SECONDS) $(scaling)/$$scene.threads.$$threads.$$round.json --backend cpu --threads $$threads $(BENCH_FLAGS); \
+	    done; \
 	  done; \
+	  rm -f $(scaling)/*.h5; \
 	done
-	@rm -f $(scaling)/particles.h5
 	@$(bench_jq) -n -f $(here)/bench/scaling.jq $(scaling)/*.json > $(bench_out)/scaling.json
 	@$(bench_jq) -r -f $(here)/bench/scaling-table.jq $(bench_out)/scaling.json | tee $(bench_out)/scaling.txt
 

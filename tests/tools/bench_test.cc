@@ -47,7 +47,7 @@ TEST_F(Bench, RecordsTellWhatRanWhereAndWhatTheTimeWentInto) {
 
 TEST_F(Bench, ScalingComparesSizesAndThreadsAndLeavesOutWhatMemoryDoesNotHold) {
   const std::string tables =
-      make("bench-scaling SCALING_SCENES=water-3d SIZES='1e4 2e4 1e15' THREADS='1 2' SCALING_SECONDS=0.1");
+      make("bench-scaling SCALING_SCENES=water-3d SIZES='1e4 2e4 1e15' THREADS='1 2' SCALING_SECONDS=0.1 ROUNDS=2");
   const json scaling = result("scaling.json");
   const json& sizes = scaling.at("sizes").at(0);
   ASSERT_EQ(sizes.at("runs").size(), 2u);
@@ -57,12 +57,23 @@ TEST_F(Bench, ScalingComparesSizesAndThreadsAndLeavesOutWhatMemoryDoesNotHold) {
                second = sizes.at("runs")[1].at("ns_per_particle_step");
   EXPECT_NEAR(double(sizes.at("spread")), std::max(first, second) / std::min(first, second) - 1, 1e-9);
   EXPECT_EQ(sizes.at("within_bar"), double(sizes.at("spread")) <= 0.15);
+  const auto speed = [&](const std::string& run) -> double {
+    return result("scaling/water-3d." + run + ".json").at("stepping_particle_steps_per_s");
+  };
+  const double rounds[] = {speed("sizes.1e4.1"), speed("sizes.1e4.2")};
+  EXPECT_NEAR(1e9 / first, std::max(rounds[0], rounds[1]), 1e-6 * rounds[0]);
+  EXPECT_NEAR(double(sizes.at("runs")[0].at("rounds_differ_by")),
+              std::max(rounds[0], rounds[1]) / std::min(rounds[0], rounds[1]) - 1, 1e-9);
   const json& threads = scaling.at("threads").at(0).at("runs");
   ASSERT_EQ(threads.size(), 2u);
   EXPECT_EQ(threads[0].at("efficiency"), 1);
   EXPECT_NEAR(double(threads[1].at("efficiency")),
               double(threads[1].at("particle_steps_per_s")) / double(threads[0].at("particle_steps_per_s")) / 2, 1e-9);
   EXPECT_NE(tables.find("water-3d: cost per particle-step differs by"), std::string::npos) << tables;
+
+  make("bench-scaling SCALING_SCENES=water-3d SIZES=1e4 SCALING_SECONDS=0.1 ROUNDS=1 BENCH_FLAGS='--threads 1'");
+  EXPECT_EQ(result("scaling.json").at("sizes").size(), 1u);
+  EXPECT_TRUE(result("scaling.json").at("threads").empty());
 }
 
 TEST_F(Bench, APartOfABarIsExtrapolatedAndSaysSo) {
