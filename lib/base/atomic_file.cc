@@ -37,14 +37,6 @@ bool sync_to_disk(const std::string& path, int flags) {
   return synced && closed;
 }
 
-/// rename() that fails with EEXIST instead of replacing; some file systems do not know it and answer EINVAL.
-int rename_without_replacing(const char* from, const char* to) {
-  if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return -1;
-  if (access(to, F_OK) == 0) return errno = EEXIST, -1;
-  return std::rename(from, to);
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {
@@ -80,12 +72,11 @@ void AtomicFile::fail(const std::string& why) const {
 
 void AtomicFile::commit() {
   if (!sync_to_disk(temporary_, O_RDWR)) fail(std::strerror(errno));
-  const int renamed = overwrite_ ? std::rename(temporary_.c_str(), path_.c_str())
-                                 : rename_without_replacing(temporary_.c_str(), path_.c_str());
-  if (renamed != 0 && errno == EEXIST)
+  const bool renamed = rename_file(temporary_, path_, overwrite_);
+  if (!renamed && errno == EEXIST)
     throw WorkError(path_ + " was not written", "another program created it meanwhile",
                     "pass -O/--overwrite or choose another name");
-  if (renamed != 0) fail(std::strerror(errno));
+  if (!renamed) fail(std::strerror(errno));
   committed_ = true;
   // The content is safe and visible; a file system that cannot sync a folder is no reason to fail.
   sync_folder_of(path_);
@@ -120,6 +111,14 @@ void remove_abandoned(const std::string& path) {
     if ((rest == suffix || rest == suffix + ".journal") && entry.is_regular_file(none)) found.push_back(entry.path());
   }
   for (const auto& file : found) std::filesystem::remove(file, none);
+}
+
+bool rename_file(const std::string& from, const std::string& to, bool overwrite) {
+  if (overwrite) return std::rename(from.c_str(), to.c_str()) == 0;
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;  // which file systems that do not know the flag answer
+  if (access(to.c_str(), F_OK) == 0) return errno = EEXIST, false;
+  return std::rename(from.c_str(), to.c_str()) == 0;
 }
 
 void sync_folder_of(const std::string& path) { sync_to_disk(folder_of(path), O_RDONLY | O_DIRECTORY); }

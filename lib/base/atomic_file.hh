@@ -21,8 +21,8 @@ class AtomicFile {
   /// Same folder; keeps the extension of `path` last, since GDAL's drivers go by it. Hidden, so that no glob finds it.
   const std::string& temporary() const { return temporary_; }
   void commit();
-  /// As commit(), with the file that has the name now kept as `previous`. At any moment there is a whole file at path(),
-  /// where the file system can exchange names; elsewhere it lacks for a moment, in which `previous` is there.
+  /// As commit(), with the file that has the name now kept as `previous`. At any moment there is a whole file at
+  /// path(), where the file system can exchange names; elsewhere it lacks for a moment, in which `previous` is there.
   void commit_keeping(const std::string& previous);
 
  private:
@@ -34,6 +34,9 @@ class AtomicFile {
 
 /// Removes the temporary files that killed processes left of an AtomicFile of `path`. Only where none is being written.
 void remove_abandoned(const std::string& path);
+
+/// Renames a file; false with errno set when that fails, which is EEXIST where `to` exists and `overwrite` is false.
+bool rename_file(const std::string& from, const std::string& to, bool overwrite);
 
 /// Brings renamed and removed names in the folder of `path` to the disk, where its file system can do that.
 void sync_folder_of(const std::string& path);

@@ -6,9 +6,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/error.hh"
 #include "version.hh"
@@ -41,7 +43,12 @@ class Sha256 {
 }  // namespace
 
 void Provenance::add_input(const std::string& path) {
-  if (enabled) inputs.emplace_back(path, sha256_of_file(path));
+  if (!enabled) return;
+  std::error_code none;
+  // A pipe cannot be read twice; sha256_of_file() says of what is not there that it cannot be read.
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  const bool stream = path == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
+  inputs.emplace_back(path == "-" ? "stdin" : path, stream ? "" : sha256_of_file(path));
 }
 
 void Provenance::add_text(const std::string& name, const std::string& text) {
@@ -52,7 +59,10 @@ std::string Provenance::to_json() const {
   if (!enabled) return "{}";
   nlohmann::ordered_json json = {{"tool", tool}, {"version", version}, {"command_line", command_line}};
   json["inputs"] = nlohmann::ordered_json::array();
-  for (const auto& [path, sha256] : inputs) json["inputs"].push_back({{"path", path}, {"sha256", sha256}});
+  for (const auto& [path, sha256] : inputs) {
+    json["inputs"].push_back({{"path", path}, {"sha256", nullptr}});
+    if (!sha256.empty()) json["inputs"].back()["sha256"] = sha256;
+  }
   // A file name need not be UTF-8; JSON must be.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -12,12 +12,14 @@ struct Provenance {
   std::string tool;
   std::string version;  // "0.1.0 (git hash)"
   std::string command_line;
-  std::vector<std::pair<std::string, std::string>> inputs;  // (path as given, SHA-256 in hex)
+  std::vector<std::pair<std::string, std::string>> inputs;  // (path as given, SHA-256 in hex; empty: a pipe)
   bool enabled = true;                                      // false with --no-provenance: reruns compare byte by byte
 
-  void add_input(const std::string& path);                          // hashes the file now; nothing when disabled
-  void add_text(const std::string& name, const std::string& text);  // the same for what came through stdin
-  std::string to_json() const;                                      // "{}" when disabled
+  /// Hashes the file now; nothing when disabled. What comes through a pipe ("-": stdin) is named, with null for its
+  /// hash.
+  void add_input(const std::string& path);
+  void add_text(const std::string& name, const std::string& text);
+  std::string to_json() const;  // "{}" when disabled
 };
 
 /// Project version and git hash of the build: "0.1.0 (git 1a2b3c4)", "0.1.0 (no git)" when built outside a clone.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
+#include <utility>
 
 #include "case/dotted_key.hh"
 
@@ -97,6 +98,53 @@ std::vector<std::string> case_warnings(const Case& c) {
              "gauge " + c.gauges[i].name + " is less than a particle from " + c.gauges[j].name,
              "they measure the same column", "move one of them");
   return warnings;
+}
+
+namespace {
+
+/// Calls `f` for every file that the case may name, empty where it does not.
+template <class AnyCase, class F>
+void for_each_file(AnyCase& c, const F& f) {
+  for (auto& source : c.terrain.sources) f(source.file);
+  auto& surface = c.slide.surface;
+  f(c.slide.polygon_file), f(surface.before), f(surface.after), f(surface.thickness), f(surface.failure_surface);
+  if (c.slide.motion) f(c.slide.motion->file);
+  for (auto& body : c.bodies) f(body.motion);
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const Case& c) {
+  std::vector<std::string> files;
+  for_each_file(c, [&](const std::string& file) {
+    if (!file.empty()) files.push_back(file);
+  });
+  return files;
+}
+
+std::string differing_geometry(const Case& a, const Case& b) {
+  const auto bare = [](Case c) {
+    c.terrain.vertical_datum.clear();
+    for (TerrainSource& source : c.terrain.sources) source.attribution.clear();
+    for_each_file(c, [](std::string& file) { file = std::filesystem::path(file).filename().string(); });
+    return c;
+  };
+  const Case p = bare(a), q = bare(b);
+  const std::pair<bool, const char*> same[] = {{p.dimension == q.dimension, "dimension"},
+                                               {p.dp == q.dp, "particle_spacing"},
+                                               {p.gravity == q.gravity, "gravity"},
+                                               {p.terrain == q.terrain, "terrain"},
+                                               {p.water.present == q.water.present, "water"},
+                                               {p.water.level == q.water.level, "water.level"},
+                                               {p.water.seed == q.water.seed, "water.seed"},
+                                               {p.water.density == q.water.density, "water.density"},
+                                               {p.water.bodies == q.water.bodies, "water.bodies"},
+                                               {p.water.wave == q.water.wave, "water.wave"},
+                                               {p.slide == q.slide, "slide"},
+                                               {p.bodies == q.bodies, "bodies"}};
+  for (const auto& [agree, key] : same)
+    if (!agree) return key;
+  return "";
 }
 
 }  // namespace lgiw

@@ -31,6 +31,7 @@ struct TerrainSource {
   double blend = 0;           // m: width of the blended seam to the sources below; 0: four pixels of the coarser
   double vertical_shift = 0;  // m, added to the values
   std::string attribution;    // who is to be named wherever anything made from it is published; empty: nobody
+  bool operator==(const TerrainSource&) const = default;
 };
 
 struct Terrain {
@@ -50,6 +51,7 @@ struct Terrain {
   double wall_top = 0;         // m: top of side walls; 0: automatic
   double reach_angle = 11;     // degrees: angle of reach (energy line) that bounds where walls are placed for soil
   double runup_allowance = 0;  // m above the still water level up to which banks get walls; 0: automatic
+  bool operator==(const Terrain&) const = default;
 };
 
 /// A wave that is on the water at t = 0.
@@ -60,6 +62,7 @@ struct Wave {
   bool eastwards = false;  // solitary: runs towards +x
   double amplitude = 0;    // standing: m
   int mode = 1;            // standing: half wave lengths over the length of the domain
+  bool operator==(const Wave&) const = default;
 };
 
 struct Water {
@@ -84,6 +87,7 @@ struct SlideSurface {
   std::optional<double> depth;  // m below the ground, measured vertically
   struct Plane {
     double x, y, z, dip, dip_direction;
+    bool operator==(const Plane&) const = default;
   };  // through a point; degrees; direction clockwise from north
   std::optional<Plane> plane;
   std::optional<double> base_elevation;  // m: horizontal base, "soil down to a depth" as in Huang et al. 2023
@@ -92,8 +96,10 @@ struct SlideSurface {
     double max_depth = 0;
     double max_slope = 0;
     int neighbours = 4;
+    bool operator==(const Slbl&) const = default;
   };
   std::optional<Slbl> slbl;  // sloping local base level (Jaboyedoff et al. 2004; 2019)
+  bool operator==(const SlideSurface&) const = default;
 };
 
 /// The slide as a rigid body that moves as prescribed, instead of soil.
@@ -101,6 +107,7 @@ struct SlideMotion {
   std::string file;                            // CSV (lib/files/body_motion.hh), relative to the case file
   std::optional<std::array<double, 3>> pivot;  // default: the centre of its volume
   double heading = 90;                         // degrees clockwise from north: the direction in which it pitches
+  bool operator==(const SlideMotion&) const = default;
 };
 
 struct Slide {
@@ -112,6 +119,7 @@ struct Slide {
   double min_thickness = 0;                 // m: thinner soil is left out; 0: half dp
   std::array<double, 3> velocity{0, 0, 0};  // m/s, of the soil at t = 0
   std::optional<SlideMotion> motion;        // rigid; there is no soil then
+  bool operator==(const Slide&) const = default;
 };
 
 /// A rigid body of an analytic scene that moves as prescribed.
@@ -120,6 +128,7 @@ struct MovingBody {
   std::vector<Point2> outline;  // x, z at t = 0; in 3-D over the whole width
   std::string motion;           // CSV (lib/files/body_motion.hh), relative to the case file
   std::optional<Point2> pivot;  // x, z; default: the centroid of the outline
+  bool operator==(const MovingBody&) const = default;
 };
 
 /// mu(I): strength that grows with the shear rate, up to that of friction_angle_fast.
@@ -235,6 +244,14 @@ Case parse_case(const std::string& text, const std::string& name_for_messages,
 
 /// Every key that a case may have, dotted and without list numbers: "name", "water", "water.level", "gauges.x" ...
 std::vector<std::string> known_case_keys();
+
+/// The files that a case names, as they stand in it.
+std::vector<std::string> files_of(const Case& c);
+
+/// The first key of those that particles are made from - spacing, terrain, water, slide, bodies and what their initial
+/// pressure follows from - in which two cases differ; empty where they agree. Files count by their names alone: a case
+/// may have moved.
+std::string differing_geometry(const Case& a, const Case& b);
 
 /// What is allowed but rarely meant, one line each, for stderr.
 std::vector<std::string> case_warnings(const Case& c);

@@ -205,6 +205,15 @@ class Validator {
     refuse_if(c_.slide.present || !c_.bodies.empty(), "water.wave",
               std::string("water.wave with ") + (c_.slide.present ? "a slide" : "bodies"),
               "initial waves are those of undisturbed water", "leave one of the two out");
+    refuse_if(settles(), "water.wave", std::string("water.wave with ") + settling_key(),
+              "the scene settles to rest before the run", "leave one of the two out");
+  }
+
+  bool settles() const {
+    return c_.numerics.settle_time > 0 || (c_.slide.present && c_.soil.initial_stress == InitialStress::settled);
+  }
+  const char* settling_key() const {
+    return c_.numerics.settle_time > 0 ? "numerics.settle_time" : "soil.initial_stress: settled";
   }
 
   void check_slide() const {
@@ -243,6 +252,9 @@ class Validator {
       for (const Point2& p : slide.polygon) check_inside("slide.polygon", "slide.polygon", p);
     }
     if (slide.motion) check_motion(*slide.motion);
+    const bool moves = slide.velocity != std::array<double, 3>{0, 0, 0};
+    refuse_if(moves && settles(), "slide.velocity", std::string("slide.velocity with ") + settling_key(),
+              "the scene settles to rest before the run", "leave one of the two out");
     if (s.slbl)
       refuse_if(s.slbl->neighbours != 4 && s.slbl->neighbours != 8, "slide.slbl.neighbours",
                 "slide.slbl.neighbours is " + std::to_string(s.slbl->neighbours),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "case/polygon.hh"
+#include "files/domain.hh"
 #include "physics/rigid_motion.hh"
 
 namespace lgiw {

@@ -25,17 +25,9 @@ std::vector<double> at_nodes(const SurfaceMap& map, const HeightField& field);
 /// The ground before the slide, or the bed where the file has none.
 const HeightField& ground_of(const ParticleHeader& header);
 
-/// Whether (x, y) of the case's CRS lies in the run's domain; in 2-D only x counts.
-bool inside_domain(const ParticleHeader& header, double x, double y);
-/// The domain in the case's CRS, for messages: "x from 0 to 100 and y from 0 to 50".
-std::string domain_text(const ParticleHeader& header);
-
 /// The gauges and sections of the case a run was made from; `case_file` (empty: none) replaces it. Throws InputError
 /// for gauges and sections outside the run's domain, for a case of another dimension, and for a text that is no case.
 Case case_of_run(const RunHeader& header, const std::string& run_path, const std::string& case_file);
-/// Throws InputError when a gauge or a point of a section lies outside the run's domain.
-void check_inside(const ParticleHeader& header, const std::vector<Gauge>& gauges, const std::vector<Section>& sections);
-
 /// A place on a section line.
 struct Station {
   double distance = 0;  // m from the first point along the line

@@ -105,12 +105,14 @@ StepEstimate estimate_step(const Case& c, double sound_speed, double soil_height
 }
 
 RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double soil_height,
-                         double rate) {
+                         double rate, double soil_extent) {
   RunEstimate estimate;
   const double flow = 0.1 * (sound_speed > 0 ? sound_speed : soil_sound_speed(c));
   const double g = std::hypot(c.gravity[0], c.gravity[1], c.gravity[2]);
   estimate.time_step = estimate_step(c, sound_speed, soil_height, flow, g).dt;
-  estimate.steps = std::ceil((c.output.end_time + c.numerics.settle_time) / estimate.time_step);
+  const bool soil_settles = counts.soil > 0 && c.soil.initial_stress == InitialStress::settled;
+  const double settling = soil_settles ? 5 * std::max(soil_extent, c.dp) / soil_sound_speed(c) : c.numerics.settle_time;
+  estimate.steps = std::ceil((c.output.end_time + settling) / estimate.time_step);
   estimate.run_time = estimate.steps * double(counts.total()) / rate;
 
   // Numbers held per particle: positions (at their own precision), the other fields, and indices of 4 bytes.
@@ -119,7 +121,12 @@ RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sou
   const double water = 2 * position * d + number * (3 * d + 4) + 16;
   const double soil = 2 * position * d + number * (3 * d + 2 * stresses + 4) + 16;
   const double wall = number * (2 * d + 4 + (counts.soil > 0 ? d + stresses : 0)) + 4;
-  estimate.memory_bytes = double(counts.water) * water + double(counts.soil) * soil + double(counts.wall) * wall + 6e7;
+  // As read (points in double, the rest in single), and of what moves two states kept and an output being made.
+  const double read = 24 + 3 * 4, kept = c.numerics.retakes > 0 ? 2 : 0, output = 2 * 24 + 2 * 12 + 2 * 16;
+  const double held_water = water * (1 + kept) + read + output, held_soil = soil * (1 + kept) + read + 24 + output;
+  const double held_wall = wall + read + 3 * 4 + 1;
+  estimate.memory_bytes =
+      double(counts.water) * held_water + double(counts.soil) * held_soil + double(counts.wall) * held_wall + 3e7;
   return estimate;
 }
 

@@ -10,7 +10,7 @@
 namespace lgiw {
 
 struct RunEstimate {
-  double memory_bytes = 0;  // held by lgiw-run
+  double memory_bytes = 0;  // held by lgiw-run at its peak; on a device less
   double time_step = 0;     // s
   double steps = 0;
   double run_time = 0;  // s
@@ -39,10 +39,11 @@ struct StepEstimate {
 StepEstimate estimate_step(const Case& c, double sound_speed, double soil_height, double mu, double acceleration);
 
 /// Time step with the largest speed to be expected (a tenth of the water's sound speed) for mu and
-/// gravity for the acceleration. `rate` in particle-steps a second. Memory from the fields that the solver holds by
-/// phase and precision.
+/// gravity for the acceleration. `rate` in particle-steps a second; `soil_extent`, m, tells how long the soil settles
+/// where its initial stress does. Memory from what lgiw-run holds by phase and precision: the fields of the solver, the
+/// particles as read, two states to go back to, an output.
 RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sound_speed, double soil_height,
-                         double rate);
+                         double rate, double soil_extent = 0);
 
 /// What was measured against a reference with at least so many particles across the slide's thickness or the deepest
 /// water; absent where there are fewer than in any measurement, or nothing to count.

@@ -10,13 +10,13 @@
 
 #include "base/error.hh"
 #include "case/attribution.hh"
+#include "case/polygon.hh"
 #include "seeding/bed_surface.hh"
 #include "seeding/initial_state.hh"
 #include "seeding/initial_wave.hh"
 #include "seeding/outline_filling.hh"
 #include "seeding/packing.hh"
 #include "seeding/phase_columns.hh"
-#include "case/polygon.hh"
 #include "seeding/walls.hh"
 
 namespace lgiw {
@@ -33,9 +33,16 @@ constexpr int64_t most_particles = 2000000000;               // particle numbers
 struct Yield {
   ParticleBlock water, soil, wall;
   ParticleCounts counts;
-  double wall_volume = 0, body_volume = 0;   // body: of a rigid slide of a DEM
-  double water_excess = 0, soil_excess = 0;  // over dp^D a particle
-  std::map<int64_t, int64_t> soil_columns;   // number of columns by their number of soil particles
+  double wall_volume = 0, body_volume = 0;  // body: of a rigid slide of a DEM
+  double water_excess = 0;                  // over dp^D a particle
+  struct {                                  // of columns with soil
+    int64_t low[2] = {INT64_MAX, INT64_MAX}, high[2] = {INT64_MIN, INT64_MIN};
+    void add(int64_t i, int64_t j) {
+      low[0] = std::min(low[0], i), low[1] = std::min(low[1], j);
+      high[0] = std::max(high[0], i), high[1] = std::max(high[1], j);
+    }
+  } soil_range;
+  std::map<int64_t, int64_t> soil_columns;  // number of columns by their number of soil particles
   void clear() { *this = {}; }
 };
 
@@ -407,7 +414,7 @@ void Seeder::Parts::place_fluid(int64_t i, int64_t j, bool keep, Yield& yield) c
   thread_local std::vector<PhaseInterval> column;
   for (const SoilPoint& s : filling.soil(i)) {
     const double own = s.area * (cells.two_d ? 1 : dp);
-    yield.counts.soil += 1, yield.soil_excess += own - volume;
+    yield.counts.soil += 1;
     if (!keep) continue;
     std::array<double, 3> p{s.x, cells.y(j), s.z};
     columns.at(p[0], p[1], bed.height(p[0], p[1]), column);
@@ -602,7 +609,10 @@ void Seeder::Parts::work_on(int64_t begin, int64_t end, bool keep, Yield& yield)
     const auto [i, j] = cells.cell(n);
     const int64_t soil_before = yield.counts.soil;
     if (cells.inside(i, j)) place_fluid(i, j, keep, yield);
-    if (yield.counts.soil > soil_before) ++yield.soil_columns[yield.counts.soil - soil_before];
+    if (yield.counts.soil > soil_before) {
+      ++yield.soil_columns[yield.counts.soil - soil_before];
+      yield.soil_range.add(i, j);
+    }
     if (rigid_ground && cells.inside(i, j)) slide_column(i, j, keep, yield);
     wall.clear();
     yield.counts.wall_left_out += walls.column(i, j, wall);
@@ -635,8 +645,12 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
     for (const Yield& y : yields) {
       sum.counts.water += y.counts.water, sum.counts.soil += y.counts.soil, sum.counts.wall += y.counts.wall;
       sum.counts.wall_left_out += y.counts.wall_left_out, sum.wall_volume += y.wall_volume;
-      sum.water_excess += y.water_excess, sum.soil_excess += y.soil_excess;
+      sum.water_excess += y.water_excess;
       for (const auto& [particles, number] : y.soil_columns) sum.soil_columns[particles] += number;
+      if (!y.soil_columns.empty()) {
+        sum.soil_range.add(y.soil_range.low[0], y.soil_range.low[1]);
+        sum.soil_range.add(y.soil_range.high[0], y.soil_range.high[1]);
+      }
     }
     if (progress) progress(double(last) / double(chunks));
   }
@@ -645,14 +659,19 @@ const SeedingReport& Seeder::count(const std::function<void(double)>& progress) 
   parts_->header.counts = parts_->report.counts = sum.counts;
   parts_->report.wall_volume = sum.wall_volume;
   parts_->report.water_volume = double(sum.counts.water) * volume + sum.water_excess;
-  parts_->report.soil_volume = double(sum.counts.soil) * volume + sum.soil_excess;
+  parts_->report.soil_volume = double(sum.counts.soil) * volume;  // all of one mass, however outlines share them out
   int64_t columns_with_soil = 0, thinner = 0;
   for (const auto& [particles, number] : sum.soil_columns) columns_with_soil += number;
   for (const auto& [particles, number] : sum.soil_columns) {
     parts_->report.median_soil_column = double(particles);
     if (2 * (thinner += number) >= columns_with_soil) break;
   }
-  if (columns_with_soil > 0) parts_->report.greatest_soil_column = double(sum.soil_columns.rbegin()->first);
+  if (columns_with_soil > 0) {
+    parts_->report.greatest_soil_column = double(sum.soil_columns.rbegin()->first);
+    const int64_t widest =
+        std::max(sum.soil_range.high[0] - sum.soil_range.low[0], sum.soil_range.high[1] - sum.soil_range.low[1]);
+    parts_->report.soil_extent = dp * std::max(double(widest), parts_->report.greatest_soil_column);
+  }
   LGIW_VALIDATE(sum.counts.total() <= most_particles, "too many particles: " + std::to_string(sum.counts.total()),
                 "at most 2e9 can be numbered", "Choose a larger dp or a smaller terrain.window.");
   return parts_->report;

@@ -25,6 +25,7 @@ struct SeedingReport {
   double east_moved = 0, north_moved = 0;                     // m: sides moved to a multiple of dp
   // Particles: over the columns, one dp wide, that hold soil.
   double median_soil_column = 0, greatest_soil_column = 0;
+  double soil_extent = 0;  // m, along the axis where it is longest
 };
 
 /// Places the particles of a case: water and soil on a common lattice of spacing dp, walls as lib/seeding/walls.hh has

@@ -12,7 +12,7 @@
 namespace lgiw {
 namespace {
 
-constexpr const char* format = "lgiw-checkpoint 2";
+constexpr const char* format = "lgiw-checkpoint 3";
 
 // Behind HDF5's own end, which passes over it: a digest of all bytes before. HDF5 itself checks few of them.
 const std::string seal_name = "\nlgiw sha256 ";
@@ -20,8 +20,20 @@ constexpr std::size_t seal_length = 13 + 64;
 
 std::string array_path(std::size_t k) { return "/arrays/" + std::to_string(100000 + k).substr(1); }
 
+struct OtherRun : InputError {
+  using InputError::InputError;
+};
+
 [[noreturn]] void damaged(const std::string& path, const std::string& why) {
   throw InputError(path + " is damaged", why, "it cannot be resumed from");
+}
+
+/// Each ends with a line feed.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    lines.push_back(text.substr(at, end - at));
+  return lines;
 }
 
 void check_seal(const std::string& path) {
@@ -53,6 +65,9 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
   file.set_attribute("/", "Identity", c.identity);
   file.set_attribute("/", "Counts", std::vector<int64_t>{c.outputs, c.frames, c.surfaces, c.diagnostics});
   file.set_attribute("/", "WallTime", c.wall_time);
+  std::string lines;
+  for (const std::string& line : c.retakes) lines += line + "\n";
+  file.set_attribute("/", "Retakes", lines);
   file.make_group("/extremes");
   for (const auto& [name, value] : c.extremes) file.set_attribute("/extremes", name, value);
   std::string names;
@@ -79,8 +94,9 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& identity)
                 "name another file");
   Checkpoint c;
   c.identity = file.text_attribute("/", "Identity");
-  LGIW_VALIDATE(c.identity == identity, path + " belongs to another run",
-                "particles, case, overrides or precision differ", "resume with those that wrote it");
+  if (c.identity != identity)
+    throw OtherRun(path + " belongs to another run", "particles, case, overrides or precision differ",
+                   "resume with the same particles, --case, --set and --backend; -O instead discards it");
   const auto counts = file.numbers_attribute("/", "Counts");
   if (counts.size() != 4) damaged(path, "its counts are missing");
   for (const double count : counts)
@@ -88,14 +104,9 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& identity)
   c.outputs = int64_t(counts[0]), c.frames = int64_t(counts[1]);
   c.surfaces = int64_t(counts[2]), c.diagnostics = int64_t(counts[3]);
   c.wall_time = file.number_attribute("/", "WallTime");
-  const std::string names = file.text_attribute("/extremes", "Names");
-  for (std::size_t at = 0; at < names.size();) {
-    const std::size_t end = names.find('\n', at);
-    if (end == std::string::npos) break;
-    const std::string name = names.substr(at, end - at);
+  c.retakes = lines_of(file.text_attribute("/", "Retakes"));
+  for (const std::string& name : lines_of(file.text_attribute("/extremes", "Names")))
     c.extremes[name] = file.number_attribute("/extremes", name);
-    at = end + 1;
-  }
   for (const std::string& name : file.children("/maxima")) c.maxima[name] = file.read<float>("/maxima/" + name);
   if (file.exists("/initial_elevation")) c.initial_elevation = file.read<float>("/initial_elevation");
   const std::size_t n = file.children("/arrays").size();
@@ -117,6 +128,8 @@ Checkpoint read_newest_checkpoint(const std::string& path, const std::string& id
       return c;
     } catch (const std::bad_alloc&) {
       throw;  // it is sound, as its digest was right: an older one would lose steps for nothing
+    } catch (const OtherRun&) {
+      throw;  // sound, too, and all that there is of a run that whoever called did not mean
     } catch (const std::exception& e) {
       why += (why.empty() ? "" : "; ") + std::string(e.what());
     }

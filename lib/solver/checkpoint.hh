@@ -1,4 +1,5 @@
-// Restart state on disk: always one whole file, sealed with a digest of all its bytes, replaced only by a newer whole one.
+// Restart state on disk: always one whole file, sealed with a digest of all its bytes, replaced only by a newer whole
+// one.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,12 @@ struct Checkpoint {
   std::map<std::string, double> extremes;            // running maxima of the summary
   std::map<std::string, std::vector<float>> maxima;  // rasters
   std::vector<float> initial_elevation;
-  std::vector<RawArray> arrays;  // Simulation::save()
+  std::vector<std::string> retakes;  // what was said of failed steps
+  std::vector<RawArray> arrays;      // Simulation::save()
 };
 
-/// Writes to a temporary file, brings it to the disk, and gives it the name; what had it is kept as `path` + ".previous".
+/// Writes to a temporary file, brings it to the disk, and gives it the name; what had it is kept as `path` +
+/// ".previous".
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 /// Throws InputError when the file is damaged (told by its digest, before HDF5 sees it) or belongs to another run.
 Checkpoint read_checkpoint(const std::string& path, const std::string& identity);

@@ -3,10 +3,19 @@
 
 namespace lgiw {
 
+namespace {
+
+__global__ void probe() {}
+
+}  // namespace
+
 bool cuda_available(std::string* why) {
-  // Any error means that there is nothing to run on: no driver answers with cudaErrorInsufficientDriver.
+  // Any error means that there is nothing to run on: no driver answers with cudaErrorInsufficientDriver, a device for
+  // which this build has no code with cudaErrorNoKernelImageForDevice.
   int count = 0;
-  const cudaError_t status = cudaGetDeviceCount(&count);
+  cudaFuncAttributes attributes;
+  cudaError_t status = cudaGetDeviceCount(&count);
+  if (status == cudaSuccess && count > 0) status = cudaFuncGetAttributes(&attributes, probe);
   if (status == cudaSuccess && count > 0) return true;
   if (why) *why = status == cudaSuccess ? "no device" : cudaGetErrorString(status);
   return false;

@@ -294,9 +294,10 @@ class Runner {
   void settle() {
     const double duration = model_.settle_time;
     if (!(duration > 0) || !(header_.counts.water || model_.settle_soil)) return;
-    if (!simulation_->state().settling)  // set in a resumed run
-      simulation_->settle(model_.settle_soil ? Settling::all : Settling::water);
-    while (!advance_to(duration)) continue;
+    do {
+      // Set in a resumed run; not in what was kept before the start, to which a failed step leads back.
+      if (!simulation_->state().settling) simulation_->settle(model_.settle_soil ? Settling::all : Settling::water);
+    } while (!advance_to(duration));
     const StepState st = simulation_->state();
     extremes_["settle_steps"] = double(st.step);
     ParticleState s;
@@ -310,6 +311,9 @@ class Runner {
              << " m/s";
     log(line.str());
     simulation_->settle(Settling::off);
+    // Its clock was another, and what failed was not the run.
+    simulation_->limit_time_step(1);
+    retaken_.tries = 0, retaken_.until = 0;
   }
 
   /// Steps until the time is `target`, with checkpoints by the clock and on a signal. False where a step failed and the
@@ -372,7 +376,8 @@ class Runner {
     if (!again) ++retaken_.failures;
     ++retaken_.tries;
     if (retaken_.tries > 1) kept_.resize(1);
-    restore(kept_.back().state);
+    const Checkpoint& kept = kept_.back().state;
+    restore_state(kept);
     const StepState st = simulation_->state();
     const double share = std::pow(0.5, retaken_.tries);
     simulation_->limit_time_step(share);
@@ -382,7 +387,16 @@ class Runner {
                   "a step failed at t = %.4g s (step %lld): taken again from t = %.4g s with 1/%d of the time step",
                   at.time, static_cast<long long>(at.step), st.time, 1 << retaken_.tries);
     log(line);
-    warnings_.push_back(line);
+    retakes_.push_back(line);
+    if (!writer_ || writer_->surfaces() == kept.surfaces) return;  // nothing was written since
+    // The checkpoints there are may count on what the run file is about to lose.
+    flush();
+    Checkpoint c = present();
+    c.frames = kept.frames, c.surfaces = kept.surfaces, c.diagnostics = kept.diagnostics;
+    write_checkpoint(checkpoint_path(options_.output), c);
+    std::error_code none;
+    fs::remove(previous_checkpoint(checkpoint_path(options_.output)), none);
+    shorten_run_file(kept);
   }
 
   /// At the times of outputs only, which do not depend on how fast the machine is.
@@ -567,16 +581,19 @@ class Runner {
     c.extremes["retake_failures"] = retaken_.failures, c.extremes["retake_tries"] = retaken_.tries;
     c.extremes["retake_until"] = retaken_.until;
     c.maxima = maxima_, c.initial_elevation = initial_elevation_;
+    c.retakes = retakes_;
     c.arrays = simulation_->save();
     return c;
   }
 
-  /// Back to `c`, the run file too.
-  void restore(const Checkpoint& c) {
+  void restore_state(const Checkpoint& c) {
     simulation_->restore(c.arrays);
     outputs_ = c.outputs, extremes_ = c.extremes, maxima_ = c.maxima, initial_elevation_ = c.initial_elevation;
-    if (writer_ && writer_->surfaces() == c.surfaces) return;  // nothing was written since
-    if (writer_) writer_->flush();                             // which tells how much is in the file
+  }
+
+  /// To what was in the run file at `c`.
+  void shorten_run_file(const Checkpoint& c) {
+    if (writer_) writer_->flush();  // which tells how much is in the file
     writer_.reset();
     writer_ = std::make_unique<RunWriter>(
         RunWriter::reopen(partial_path(options_.output), c.frames, c.surfaces, c.diagnostics));
@@ -586,7 +603,9 @@ class Runner {
     if (!resume_note_.empty()) log(resume_note_);
     remove_leftovers();
     const Checkpoint c = std::move(resumed_);
-    restore(c);
+    restore_state(c);
+    shorten_run_file(c);
+    retakes_ = c.retakes;
     earlier_ = c.wall_time;
     stepping_earlier_ = extremes_["stepping_time"];
     retaken_ = {int(extremes_["retake_failures"]), int(extremes_["retake_tries"]), extremes_["retake_until"]};
@@ -604,6 +623,7 @@ class Runner {
     const StepState st = simulation_->state();
     const ErrorBudget budget = error_budget(model_, header_, extremes_);
     log(text_of(budget));
+    warnings_.insert(warnings_.end(), retakes_.begin(), retakes_.end());
     for (const std::string& warning : warnings_of(budget)) {
       log("warning: " + warning);
       warnings_.push_back(warning);
@@ -676,7 +696,10 @@ class Runner {
     const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
     std::error_code ec(synced ? 0 : errno, std::generic_category());
     if (descriptor >= 0) close(descriptor);
-    if (synced) fs::rename(partial, options_.output, ec);
+    if (synced && !rename_file(partial, options_.output, options_.overwrite)) ec.assign(errno, std::generic_category());
+    if (ec == std::errc::file_exists)
+      throw WorkError(options_.output + " was not written", "another program created it meanwhile",
+                      "the whole run is in " + partial);
     if (!ec) sync_folder_of(options_.output);  // before the checkpoints go
     if (ec) throw WorkError("cannot name " + options_.output, ec.message(), "the whole run is in " + partial);
     for (const std::string& path : checkpoints()) fs::remove(path, ec);
@@ -706,7 +729,7 @@ class Runner {
   std::string identity_, resume_note_;
   Checkpoint resumed_;
   Resolution resolution_;
-  std::vector<std::string> warnings_, outside_;  // outside_: of the envelope
+  std::vector<std::string> warnings_, outside_, retakes_;  // outside_: of the envelope; retakes_: of failed steps
   double arrival_threshold_ = 0, earlier_ = 0, checkpoint_at_ = 0, seconds_taken_ = 0, stepping_earlier_ = 0,
          diagnostics_seconds_ = 0, set_up_seconds_ = 0;
   struct Kept {
@@ -759,7 +782,9 @@ std::string plan_json(const Case& c, const ParticleData& data, double particle_s
                     {"wall", data.header.counts.wall},
                     {"left_out", data.header.counts.wall_left_out}};
   j["left_out"] = simulation->left_out();
-  j["memory_bytes"] = simulation->bytes().total();
+  j["memory_bytes"] = std::llround(
+      estimate_run(c, data.header.counts, p.sound_speed, p.soil_height, particle_steps_per_s).memory_bytes);
+  j["solver_bytes"] = simulation->bytes().total();
   const OutputSize size = output_size(c, data.header, moving_bytes(*simulation));
   j["disk_bytes_at_most"] = {{"run", size.run}, {"checkpoints", size.checkpoints}};
   j["time_step_s"] = dt;

@@ -4,6 +4,7 @@
 #include <gdal_utils.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -136,11 +137,12 @@ RasterSource::RasterSource(const std::string& path, std::string what, Provenance
   const double determinant = geo_[1] * geo_[5] - geo_[2] * geo_[4];
   LGIW_VALIDATE(std::isfinite(determinant) && determinant != 0, what_ + ": has a degenerate georeference",
                 "its pixels have no area", "repair the geotransform, e.g. with gdal_translate -a_ullr");
-  const std::string unit = band->GetUnitType();
-  LGIW_VALIDATE(unit.find("ft") == std::string::npos && unit.find("foot") == std::string::npos &&
-                    unit.find("feet") == std::string::npos,
-                what_ + ": has elevations in '" + unit + "'", "everything here is in metres",
-                "convert it, e.g. with gdal_calc.py");
+  std::string unit = band->GetUnitType();
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const char* const metres[] = {"", "m", "m.", "metre", "metres", "meter", "meters", "mtr"};
+  LGIW_VALIDATE(std::find(std::begin(metres), std::end(metres), unit) != std::end(metres),
+                what_ + ": has elevations in '" + band->GetUnitType() + "'", "everything here is in metres",
+                "convert it, e.g. with gdal_calc.py, or mend its unit with gdal_edit.py -units m");
   if (const OGRSpatialReference* crs = data_->GetSpatialRef()) crs_ = *crs;
   if (!crs_.IsEmpty()) {
     const double vertical_unit = crs_.IsCompound() ? crs_.GetTargetLinearUnits("VERT_CS") : 1;
@@ -294,11 +296,15 @@ std::vector<double> RasterSource::read(const Window& window) const {
   const double declared = band->GetNoDataValue(&has_void);
   const bool single = band->GetRasterDataType() == GDT_Float32;
   const double scale = band->GetScale(), offset = band->GetOffset();
+  // A band of alpha is the mask of every type; GDAL itself takes it for one where it holds bytes.
+  GDALRasterBand* mask_band = band->GetMaskFlags() & GMF_PER_DATASET ? band->GetMaskBand() : nullptr;
+  for (int k = 2; k <= data_->GetRasterCount() && !mask_band; ++k)
+    if (data_->GetRasterBand(k)->GetColorInterpretation() == GCI_AlphaBand) mask_band = data_->GetRasterBand(k);
   std::vector<uint8_t> mask;
-  if (band->GetMaskFlags() & GMF_PER_DATASET) {
+  if (mask_band) {
     mask.resize(values.size());
-    const bool masked = band->GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
-                                                      mask.data(), columns, rows, GDT_Byte, 0, 0, nullptr) == CE_None;
+    const bool masked = mask_band->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                            mask.data(), columns, rows, GDT_Byte, 0, 0, nullptr) == CE_None;
     LGIW_VALIDATE(masked, what_ + ": its mask cannot be read", QuietGdal::message(), "fetch the file again");
   }
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -329,7 +335,9 @@ std::vector<double> RasterSource::sample(const RasterGrid& grid, double spike_th
   std::vector<double> native = read(window);
   RasterGrid shape = window.shape();
   if (spike_threshold > 0) {
-    const Spikes found = find_spikes(native, int(shape.nx), int(shape.ny), spike_threshold, remove_spikes);
+    // Of neighbours; cells that are averages of several lie further apart than the source's own.
+    const Spikes found =
+        find_spikes(native, int(shape.nx), int(shape.ny), spike_threshold * window.factor, remove_spikes);
     if (spikes) {
       *spikes = found;
       const auto place =

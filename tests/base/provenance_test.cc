@@ -73,6 +73,21 @@ TEST(Provenance, SaysWhatWasRunOnWhat) {
   EXPECT_EQ(json.size(), 4u) << "no time, no host: reruns are byte-identical";
 }
 
+TEST(Provenance, APipeIsNamedWithoutAHash) {
+  Provenance provenance{"gauges", "0.1.0", "gauges -", {}, true};
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const std::string name = "/dev/fd/" + std::to_string(ends[0]);
+  provenance.add_input(name);
+  provenance.add_input("-");
+  close(ends[0]), close(ends[1]);
+  const nlohmann::json inputs = nlohmann::json::parse(provenance.to_json()).at("inputs");
+  EXPECT_EQ(inputs[0].at("path"), name);
+  EXPECT_TRUE(inputs[0].at("sha256").is_null());
+  EXPECT_EQ(inputs[1].at("path"), "stdin");
+  EXPECT_TRUE(inputs[1].at("sha256").is_null());
+}
+
 TEST(Provenance, DisabledIsEmpty) {
   Provenance provenance{"gauges", "0.1.0", "gauges run.h5", {}, false};
   provenance.add_text("stdin", "abc");

@@ -110,8 +110,10 @@ inline void change_attribute(const Handle& file, const H5Object& object, const s
       values[script.byte() % values.size()] = script.real();
       H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
     } else {
+      const Handle space(H5Aget_space(attribute.id()));
       std::string text = script.text(200);
-      text.resize(std::max<std::size_t>(text.size(), H5Tget_size(type.id())));
+      text.resize(std::max<std::size_t>(
+          text.size(), H5Tget_size(type.id()) * std::size_t(H5Sget_simple_extent_npoints(space.id()))));
       H5Awrite(attribute.id(), type.id(), text.data());
     }
   } else {
@@ -203,8 +205,7 @@ inline void change(const std::string& path, const std::vector<H5Object>& objects
       if (what / 8 % 4 == 0) H5Lcreate_soft(other.c_str(), file.id(), object.path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
       if (what / 8 % 4 == 1)
         H5Lcreate_external("elsewhere.h5", other.c_str(), file.id(), object.path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-      if (what / 8 % 4 == 2)
-        H5Lcreate_hard(file.id(), other.c_str(), file.id(), object.path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      // No hard links: HDF5 1.10 itself falls over a null name while it makes them or flushes the group.
     }
   }
 }

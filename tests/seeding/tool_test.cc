@@ -1,6 +1,7 @@
 // dem2particles as a user runs it.
 #include <nlohmann/json.hpp>
 
+#include "../tools/bowl.hh"
 #include "../tools/tool_runner.hh"
 #include "files/particle_file.hh"
 #include "scene.hh"
@@ -103,6 +104,41 @@ TEST(Tool, RefusesBeforeAnyWork) {
     EXPECT_EQ(shop.contents(), before) << command;
   }
   EXPECT_EQ(shop.run("dem2particles -q case.yaml -o old.h5 -O").status, 0);
+}
+
+TEST(Tool, RefusesToOverwriteInputsAndGaugesBeyondTheTerrain) {
+  const Workshop shop;
+  write_bytes(shop / "dem.asc", ascii_grid());
+  write_bytes(shop / "bowl.yaml", bowl_case);
+  const auto before = shop.contents();
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {"-O -o dem.asc", "dem.asc is an input"},
+      {"-O -o bowl.yaml", "bowl.yaml is an input"},
+      {"-o p.h5 --set 'gauges=[{name: far, x: 600000, y: 3700000}]'",
+       "gauge far at x = 600000, y = 3700000 lies outside"},
+      {"-o p.h5 --set 'sections=[{name: far, points: [[0, 0], [1, 1]]}]'", "section far at x = 0, y = 0 lies outside"}};
+  for (const auto& [arguments, message] : refused) {
+    const Outcome outcome = shop.run("dem2particles -q bowl.yaml --set terrain.window=null " + arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(shop.contents(), before) << arguments;
+  }
+  EXPECT_EQ(read_bytes(shop / "dem.asc"), ascii_grid());
+}
+
+TEST(Tool, ToldStepsIncludeThoseOfSoilThatSettles) {
+  const Workshop shop;
+  write_bytes(shop / "case.yaml", slide);
+  const auto steps = [&](const std::string& command) {
+    return double(nlohmann::json::parse(shop.run(command).out)["steps"]);
+  };
+  const std::string settled = " --set soil.initial_stress=settled";
+  expect_quiet_success(shop.run("dem2particles -q case.yaml -o p.h5" + settled), "dem2particles");
+  const nlohmann::json told = nlohmann::json::parse(shop.run("dem2particles case.yaml --dry-run --json" + settled).out);
+  EXPECT_NEAR(double(told["run"]["steps"]), steps("lgiw-run p.h5 --dry-run"), 0.1 * double(told["run"]["steps"]))
+      << "but for soil that does not lie in columns";
+  const nlohmann::json held = nlohmann::json::parse(shop.run("dem2particles case.yaml --dry-run --json").out);
+  EXPECT_GT(double(told["run"]["steps"]), double(held["run"]["steps"]));
 }
 
 }  // namespace

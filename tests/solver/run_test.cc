@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <stdexcept>
 
 #include "base/error.hh"
 #include "files/run_file.hh"
@@ -448,11 +450,12 @@ soil: {young_modulus: 1.0e+6, friction_angle: 30, cohesion: 2000}
 /// A solver whose step beyond a time fails as long as its time step is more than a share of the usual one.
 class Faulty final : public Simulation {
  public:
-  Faulty(std::unique_ptr<Simulation> inner, double time, double share)
-      : inner_(std::move(inner)), time_(time), share_(share) {}
+  /// `fault` is called after every advance.
+  Faulty(std::unique_ptr<Simulation> inner, std::function<void(StepState&)> fault)
+      : inner_(std::move(inner)), fault_(std::move(fault)) {}
   StepState advance(double target, int64_t max_steps) override {
     StepState st = inner_->advance(target, max_steps);
-    if (st.time > time_ && st.time < time_ + 0.02 && st.share > share_) st.failed_water = 7;
+    fault_(st);
     return st;
   }
   StepState state() const override { return inner_->state(); }
@@ -477,8 +480,13 @@ class Faulty final : public Simulation {
 
  private:
   std::unique_ptr<Simulation> inner_;
-  double time_, share_;
+  std::function<void(StepState&)> fault_;
 };
+
+/// Steps for 0.02 s after `time` fail above `share` of the time step.
+bool fails(const StepState& st, double time, double share) {
+  return st.time > time && st.time < time + 0.02 && st.share > share;
+}
 
 /// Runs slide.h5 of the shop with steps after 0.13 s that fail above `share` of the time step; the lines of its log.
 std::vector<std::string> run_faulty(const Workshop& shop, const std::string& output, double share,
@@ -490,7 +498,9 @@ std::vector<std::string> run_faulty(const Workshop& shop, const std::string& out
   options.output = (shop / output).string(), options.overwrite = true, options.provenance = false;
   options.log = [&](const std::string& line) { log.push_back(line); };
   options.wrap = [&](std::unique_ptr<Simulation> solver) {
-    return std::make_unique<Faulty>(std::move(solver), 0.13, share);
+    return std::make_unique<Faulty>(std::move(solver), [share](StepState& st) {
+      if (fails(st, 0.13, share)) st.failed_water = 7;
+    });
   };
   *summary = run_case(c, data, options);
   return log;
@@ -533,6 +543,108 @@ TEST_F(Run, AFailedStretchIsTakenAgainWithASmallerTimeStep) {
     if (!std::isnan(a[i]) && !std::isnan(b[i])) {
       EXPECT_NEAR(a[i], b[i], 0.01) << i;
     }
+}
+
+TEST_F(Run, AStepThatFailsWhileTheSceneSettlesIsTakenAgainSettling) {
+  particles("slide");
+  const ParticleData data = read_particles((*shop / "slide.h5").string());
+  const Case c = parse_case(data.header.case_text, "slide",
+                            {"numerics.settle_time=0.1", "output.end_time=0.02", "output.frame_interval=0.02"});
+  RunOptions options;
+  options.output = (*shop / "settled.h5").string(), options.provenance = false;
+  int failures = 0;
+  options.wrap = [&](std::unique_ptr<Simulation> solver) {
+    return std::make_unique<Faulty>(std::move(solver), [&](StepState& st) {
+      if (st.settling && fails(st, 0.05, 0.7)) st.failed_water = 7, ++failures;
+    });
+  };
+  const json s = json::parse(run_case(c, data, options));
+  EXPECT_EQ(failures, 1);
+  EXPECT_EQ(s.at("failed_steps_retaken"), 1);
+  const RunReader run(options.output);
+  // The soil is held while the water settles.
+  const Frame first = run.frame(0);
+  for (std::size_t i = 0; i < data.soil.points.size(); ++i)
+    EXPECT_NEAR(first.points[data.water.points.size() + i], data.soil.points[i], 1e-3 * data.header.dp) << i;
+  const auto rows = run.diagnostics();
+  for (const double step : rows.at("time_step"))
+    EXPECT_GT(step, 0.7 * rows.at("time_step").front()) << "the smaller step does not last beyond settling";
+}
+
+TEST_F(Run, ARunKilledAfterAStepWasTakenAgainGoesOnAndStillSaysSo) {
+  particles("slide");
+  const ParticleData data = read_particles((*shop / "slide.h5").string());
+  Case c = parse_case(data.header.case_text, "slide");
+  RunOptions options;
+  options.output = (*shop / "killed.h5").string(), options.provenance = false;
+  c.output.checkpoint_interval = 0;
+  // Of the step that fails at 0.13 s a state from before the last checkpoint is kept; the run ends before another one.
+  options.wrap = [&](std::unique_ptr<Simulation> solver) {
+    return std::make_unique<Faulty>(std::move(solver), [&](StepState& st) {
+      if (st.time > 0.12) c.output.checkpoint_interval = 1e9;
+      if (st.share < 1) throw std::runtime_error("killed");
+      if (fails(st, 0.13, 0.7)) st.failed_water = 7;
+    });
+  };
+  EXPECT_THROW(run_case(c, data, options), std::runtime_error);
+  options.resume = true;
+  options.wrap = {};
+  const json s = json::parse(run_case(c, data, options));
+  EXPECT_EQ(s.at("failed_steps_retaken"), 1);
+  EXPECT_NE(s.at("warnings").dump().find("with 1/2 of the time step"), std::string::npos) << s.at("warnings");
+  const RunReader run(options.output);
+  ASSERT_EQ(run.surface_times().size(), 21u);
+  for (std::size_t k = 1; k < 21; ++k) EXPECT_NEAR(run.surface_times()[k], 0.02 * double(k), 0.001);
+}
+
+TEST_F(Run, AFileMadeDuringTheRunIsNotOverwritten) {
+  particles("dam");
+  const ParticleData data = read_particles((*shop / "dam.h5").string());
+  const Case c = parse_case(data.header.case_text, "dam");
+  RunOptions options;
+  options.output = (*shop / "taken.h5").string(), options.provenance = false;
+  options.progress = [&](double, const std::string&) { write_bytes(options.output, "precious"); };
+  try {
+    run_case(c, data, options);
+    FAIL() << "it was written";
+  } catch (const WorkError& e) {
+    EXPECT_NE(
+        std::string(e.what()).find("taken.h5 was not written (another program created it meanwhile) the whole run"),
+        std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(read_bytes(options.output), "precious");
+  EXPECT_EQ(RunReader((*shop / ".taken.partial.h5").string()).header().particles.counts.water,
+            data.header.counts.water);
+}
+
+TEST_F(Run, WhatTheParticlesWereMadeFromCannotBeChangedAndInputsAreNotOverwritten) {
+  particles("dam"), particles("slide");
+  write_bytes(*shop / "dam.yaml", dam_case);
+  std::string deeper = dam_case;
+  const std::size_t level = deeper.find("level: ");
+  ASSERT_NE(level, std::string::npos);
+  deeper.insert(level + 7, "0");
+  deeper.replace(level + 7, deeper.find_first_of(",}\n", level) - level - 7, "0.123");
+  write_bytes(*shop / "deeper.yaml", deeper);
+  fs::copy(*shop / "dam.h5", *shop / "same.h5");
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const Outcome outcome = shop->run("lgiw-run " + arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << arguments << ": " << outcome.err;
+  };
+  refused("dam.h5 -o no.h5 --case deeper.yaml", "(water.level is not what the particles were made with)");
+  refused("slide.h5 -o no.h5 --set 'water={level: -0.01}'", "the case does not fit slide.h5 (water.level is not what ");
+  refused("dam.h5 -o no.h5 --set gravity=[0,0,-1.6]", "(gravity is not what the particles were made with)");
+  refused("dam.h5 -o no.h5 --summary none/s.json", "none/s.json cannot be written");
+  refused("dam.h5 -o no.h5 --summary no.h5", "no.h5 is named twice");
+  refused("same.h5 -O -o same.h5", "same.h5 is an input");
+  refused("dam.h5 -O -o no.h5 --summary dam.h5", "dam.h5 is an input");
+  refused("dam.h5 -O -o no.h5 --case dam.yaml --xmf dam.yaml", "dam.yaml is an input");
+  EXPECT_EQ(read_bytes(*shop / "same.h5"), read_bytes(*shop / "dam.h5"));
+  expect_no_trace("no");
+  EXPECT_EQ(shop->run("lgiw-run dam.h5 --dry-run --case dam.yaml").status, 0);
 }
 
 TEST_F(Run, StepsThatFailHoweverSmallStopTheRun) {
@@ -590,7 +702,8 @@ TEST_F(Run, DryRunPrintsAPlanAndWritesNothing) {
   const json plan = json::parse(dry.out), s = summary("slide");
   EXPECT_EQ(plan.at("particles"), s.at("particles"));
   EXPECT_EQ(plan.at("left_out"), s.at("left_out"));
-  EXPECT_EQ(plan.at("memory_bytes"), s.at("bytes"));
+  EXPECT_EQ(plan.at("solver_bytes"), s.at("bytes"));
+  EXPECT_GT(plan.at("memory_bytes"), 0.9 * double(s.at("peak_memory_bytes")));
   EXPECT_GT(plan.at("disk_bytes_at_most").at("run"), fs::file_size(*shop / "slide-run.h5"));
   EXPECT_NEAR(double(plan.at("steps")), double(s.at("steps")), 0.2 * double(s.at("steps")));
   const double total = double(s.at("particles").at("water")) + double(s.at("particles").at("soil")) +
@@ -615,7 +728,7 @@ TEST_F(Run, ExistingOutputsAreRefused) {
     const Outcome refused = shop->run("lgiw-run dam.h5 " + call);
     EXPECT_EQ(refused.status, 2) << call;
     EXPECT_EQ(lines(refused.err), 1) << refused.err;
-    EXPECT_NE(refused.err.find(" exists (it would be overwritten) use -O"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(" exists (it would be overwritten) pass -O"), std::string::npos) << refused.err;
   }
   EXPECT_TRUE(read_bytes(*shop / "dam-run.h5") == before);
   expect_no_trace("new");

@@ -82,6 +82,15 @@ TEST_F(RasterErrors, ElevationsInFeet) {
     data->GetRasterBand(1)->SetUnitType("ft");
   }
   EXPECT_HAS(error_of(raster_case({file})), "has elevations in 'ft'");
+  for (const std::string unit : {"Feet", "US Survey Feet", "cm"}) {
+    std::ofstream(scratch("unit.vrt")) << "<VRTDataset rasterXSize=\"6\" rasterYSize=\"5\"><SRS>EPSG:32611</SRS>"
+                                          "<GeoTransform>0,10,0,50,0,-10</GeoTransform>"
+                                          "<VRTRasterBand dataType=\"Float64\" band=\"1\"><UnitType>"
+                                       << unit
+                                       << "</UnitType><SimpleSource><SourceFilename relativeToVRT=\"1\">ft.tif"
+                                          "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>";
+    EXPECT_HAS(error_of(raster_case({scratch("unit.vrt")})), "has elevations in '" + unit + "'");
+  }
 }
 
 TEST_F(RasterErrors, VerticalCrsInFeet) {
@@ -108,6 +117,25 @@ TEST_F(RasterErrors, OnlyNan) {
     for (double& z : row) z = std::numeric_limits<double>::quiet_NaN();
   EXPECT_HAS(error_of(raster_case({write_tif(scratch("nan.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows)})),
              "the terrain window holds no elevations at all (all of its 30 cells are no-data or NaN)");
+}
+
+TEST_F(RasterErrors, HolesInABandOfAlpha) {
+  const std::string file = scratch("alpha.tif");
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  {
+    const GDALDatasetUniquePtr data(driver->Create(file.c_str(), 6, 5, 2, GDT_Float32, nullptr));
+    double place[] = {0, 10, 0, 50, 0, -10};
+    data->SetGeoTransform(place);
+    OGRSpatialReference crs;
+    crs.importFromEPSG(32611);
+    data->SetSpatialRef(&crs);
+    std::vector<float> z(30, 100), alpha(30, 1);
+    z[14] = alpha[14] = 0;
+    ASSERT_EQ(data->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, 6, 5, z.data(), 6, 5, GDT_Float32, 0, 0), CE_None);
+    ASSERT_EQ(data->GetRasterBand(2)->RasterIO(GF_Write, 0, 0, 6, 5, alpha.data(), 6, 5, GDT_Float32, 0, 0), CE_None);
+    data->GetRasterBand(2)->SetColorInterpretation(GCI_AlphaBand);
+  }
+  EXPECT_HAS(error_of(raster_case({file})), "void");
 }
 
 TEST_F(RasterErrors, UndeclaredNoData) {

@@ -13,6 +13,7 @@
 #include "case/dotted_key.hh"
 #include "difference_maps.hh"
 #include "files/csv_table.hh"
+#include "files/domain.hh"
 #include "measure/convergence.hh"
 #include "measure/run_measures.hh"
 #include "measure/surface_sampling.hh"

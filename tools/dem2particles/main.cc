@@ -11,10 +11,12 @@
 #include <optional>
 
 #include "base/atomic_file.hh"
+#include "base/check_outputs.hh"
 #include "base/error.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/sweep.hh"
+#include "files/domain.hh"
 #include "seeding/run_estimate.hh"
 #include "seeding/seeding.hh"
 
@@ -52,7 +54,8 @@ ordered_json volumes(int64_t count, double volume, double expected, double surve
 
 ordered_json summary(const Case& c, const TerrainModel& model, const Seeder& seeder, double rate) {
   const SeedingReport& r = seeder.report();
-  const RunEstimate run = estimate_run(c, r.counts, seeder.header().sound_speed, r.greatest_soil_column * c.dp, rate);
+  const RunEstimate run =
+      estimate_run(c, r.counts, seeder.header().sound_speed, r.greatest_soil_column * c.dp, rate, r.soil_extent);
   ordered_json j;
   j["case"] = c.name;
   j["dimension"] = c.dimension;
@@ -182,7 +185,11 @@ int run(const Options& options, const std::string& command) {
                 "Give -o particles.h5, or --dry-run for counts only");
   const bool quiet = options.common.quiet;
   const Case c = read_case(options.case_file, options.overrides);
-  std::optional<AtomicFile> file;  // refuses an existing output before any work
+  std::vector<std::string> inputs;  // files; GDAL's own names among them are none
+  if (options.case_file != "-") inputs.push_back(options.case_file);
+  for (const std::string& named : files_of(c)) inputs.push_back(c.resolve(named));
+  if (!options.dry_run) check_outputs({options.output}, inputs, options.common.overwrite, false);
+  std::optional<AtomicFile> file;
   if (!options.dry_run) file.emplace(options.output, options.common.overwrite);
   if (!quiet)
     for (const std::string& warning : case_warnings(c)) std::cerr << "dem2particles: " << warning << "\n";
@@ -192,12 +199,13 @@ int run(const Options& options, const std::string& command) {
   provenance.tool = "dem2particles";
   provenance.version = version_string();
   provenance.command_line = command;
-  if (options.case_file != "-") provenance.add_input(options.case_file);
+  provenance.add_input(options.case_file);
   if (c.slide.motion) provenance.add_input(c.resolve(c.slide.motion->file));
   for (const MovingBody& body : c.bodies) provenance.add_input(c.resolve(body.motion));
   const TerrainModel model = build_terrain(c, provenance);
 
   Seeder seeder(c, model);
+  check_inside(seeder.header(), c.gauges, c.sections);
   {
     Progress progress(options.common.show_progress(), "counting particles");
     seeder.count([&](double done) { progress.update(done); });

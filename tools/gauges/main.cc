@@ -15,6 +15,7 @@
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "files/csv_table.hh"
+#include "files/domain.hh"
 #include "gauge_netcdf.hh"
 #include "measure/chosen_frames.hh"
 #include "measure/comparison.hh"

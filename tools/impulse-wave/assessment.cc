@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "case/dotted_key.hh"
+#include "files/domain.hh"
 #include "measure/earliest_arrival.hh"
 #include "measure/gauge_series.hh"
 #include "measure/norms.hh"

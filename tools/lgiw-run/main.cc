@@ -2,14 +2,15 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 
 #include "base/atomic_file.hh"
+#include "base/check_outputs.hh"
 #include "base/error.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "files/csv_table.hh"
+#include "files/domain.hh"
 #include "files/run_file.hh"
 #include "solver/runner.hh"
 #include "solver/simulation.hh"
@@ -40,41 +41,32 @@ void write_diagnostics(const std::string& run, const std::string& path, bool ove
   write_text_file(path, table.text(), overwrite);
 }
 
-void refuse_existing(const std::string& path, bool overwrite) {
-  LGIW_VALIDATE(path.empty() || path == "-" || overwrite || !std::filesystem::exists(path), path + " exists",
-                "it would be overwritten", "use -O to overwrite it or name another file");
-}
-
 /// What the particles were made from cannot be changed any more.
-void refuse_geometry(const std::vector<std::string>& overrides) {
-  for (const std::string& setting : overrides) {
-    const std::string key = setting.substr(0, setting.find('='));
-    bool fixed = key == "dimension" || key == "particle_spacing" || key == "water.level" || key == "water.seed";
-    for (const char* section : {"terrain", "slide", "bodies", "water.bodies", "water.wave"})
-      fixed = fixed || key == section || key.rfind(std::string(section) + ".", 0) == 0;
-    LGIW_VALIDATE(!fixed, "--set " + key + " is too late", "the particles were made with the case's own value",
-                  "give it to dem2particles");
-  }
+void refuse_geometry(const Case& c, const ParticleHeader& header, const std::string& particles) {
+  LGIW_VALIDATE(c.dimension == header.dimension && c.dp == header.dp, "the case does not fit " + particles,
+                "its dimension or particle spacing is another", "make the particles again with dem2particles");
+  if (header.case_text.empty()) return;
+  const std::string key = differing_geometry(parse_case(header.case_text, particles + " (case)"), c);
+  LGIW_VALIDATE(key.empty(), "the case does not fit " + particles, key + " is not what the particles were made with",
+                "give it to dem2particles");
 }
 
 int run(const Options& o, int argc, char** argv) {
   LGIW_VALIDATE(o.dry_run || !o.output.empty(), "no output file is named", "the run has to go somewhere",
                 "use -o RUN.h5");
-  for (const std::string& path : {o.output, o.summary, o.diagnostics, o.xmf}) refuse_existing(path, o.common.overwrite);
-  if (!o.output.empty()) {
-    LGIW_VALIDATE(o.output != "-", "a run cannot go to standard output", "HDF5 files need a seekable file",
-                  "use -o RUN.h5");
-    AtomicFile probe(o.output, true);  // refuses a folder that cannot be written, before any work
-  }
-  refuse_geometry(o.overrides);
+  LGIW_VALIDATE(o.output != "-", "a run cannot go to standard output", "HDF5 files need a seekable file",
+                "use -o RUN.h5");
+  std::vector<std::string> outputs{o.output, o.summary, o.diagnostics, o.xmf}, inputs{o.particles};
+  if (!o.case_file.empty() && o.case_file != "-") inputs.push_back(o.case_file);
+  check_outputs(outputs, inputs, o.common.overwrite, o.common.json || o.dry_run);
   if (o.threads > 0) omp_set_num_threads(o.threads);
   const ParticleData data = read_particles(o.particles);
   std::vector<std::string> overrides = o.overrides;
   if (!o.backend.empty()) overrides.push_back("numerics.backend=" + o.backend);
   const Case c = o.case_file.empty() ? parse_case(data.header.case_text, o.particles + " (case)", overrides)
                                      : read_case(o.case_file, overrides);
-  LGIW_VALIDATE(c.dimension == data.header.dimension && c.dp == data.header.dp, "the case does not fit " + o.particles,
-                "its dimension or particle spacing is another", "make the particles again with dem2particles");
+  refuse_geometry(c, data.header, o.particles);
+  check_inside(data.header, c.gauges, c.sections);
   LGIW_VALIDATE(data.header.counts.water + data.header.counts.soil > 0, o.particles + " holds nothing that moves",
                 "it has neither water nor soil particles", "check water.level, water.seed and slide of the case");
   if (o.threads == 0 && c.numerics.threads > 0) omp_set_num_threads(c.numerics.threads);
@@ -85,7 +77,7 @@ int run(const Options& o, int argc, char** argv) {
 
   Provenance provenance{"lgiw-run", version_string(), command_line(argc, argv), {}, o.common.provenance};
   provenance.add_input(o.particles);
-  if (!o.case_file.empty() && o.case_file != "-") provenance.add_input(o.case_file);
+  if (!o.case_file.empty()) provenance.add_input(o.case_file);
   Progress progress(o.common.show_progress(), "lgiw-run");
   RunOptions options;
   options.output = o.output;
