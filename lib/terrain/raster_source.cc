@@ -139,9 +139,10 @@ RasterSource::RasterSource(const std::string& path, std::string what, Provenance
                 "its pixels have no area", "repair the geotransform, e.g. with gdal_translate -a_ullr");
   std::string unit = band->GetUnitType();
   std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  const char* const metres[] = {"", "m", "m.", "metre", "metres", "meter", "meters", "mtr"};
-  LGIW_VALIDATE(std::find(std::begin(metres), std::end(metres), unit) != std::end(metres),
-                what_ + ": has elevations in '" + band->GetUnitType() + "'", "everything here is in metres",
+  // "meters above mean sea level", too.
+  const bool metres = unit.empty() || unit == "m" || unit == "m." || unit == "mtr" || unit.rfind("metre", 0) == 0 ||
+                      unit.rfind("meter", 0) == 0;
+  LGIW_VALIDATE(metres, what_ + ": has elevations in '" + band->GetUnitType() + "'", "everything here is in metres",
                 "convert it, e.g. with gdal_calc.py, or mend its unit with gdal_edit.py -units m");
   if (const OGRSpatialReference* crs = data_->GetSpatialRef()) crs_ = *crs;
   if (!crs_.IsEmpty()) {
