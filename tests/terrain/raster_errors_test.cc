@@ -121,6 +121,7 @@ TEST_F(RasterErrors, OnlyNan) {
 
 TEST_F(RasterErrors, HolesInABandOfAlpha) {
   const std::string file = scratch("alpha.tif");
+  GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   {
     const GDALDatasetUniquePtr data(driver->Create(file.c_str(), 6, 5, 2, GDT_Float32, nullptr));

@@ -215,7 +215,8 @@ std::vector<Fault> particle_faults() {
       {"output_exists", [](const Workshop&) {}, "lgiw-run particles.h5 -o run.h5", "run.h5 exists"},
       {"output_folder_missing", [](const Workshop&) {}, "lgiw-run particles.h5 -o nowhere/run.h5", "nowhere"},
       {"override_of_an_unknown_key", [](const Workshop&) {}, running + " --set soil.frction=20", "soil.frction"},
-      {"override_of_the_geometry", [](const Workshop&) {}, running + " --set slide.surface.depth=3", "too late"},
+      {"override_of_the_geometry", [](const Workshop&) {}, running + " --set slide.depth=3",
+       "slide is not what the particles were made with"},
   };
 }
 
