@@ -61,13 +61,6 @@ static __global__ void iota_kernel(int n, int* to) {
   const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
   if (i < n) to[i] = i;
 }
-/// start[c] = index of the first sorted key that is not less than c, for c = 0 ... cells.
-static __global__ void cell_starts_kernel(int n, const int* key, int cells, int* start) {
-  const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
-  if (i > n) return;
-  const int low = i == 0 ? 0 : key[i - 1] + 1, high = i == n ? cells : (key[i] < cells ? key[i] : cells);
-  for (int c = low; c <= high; ++c) start[c] = i;
-}
 
 struct CudaBackend {
   static constexpr bool on_host = false;
@@ -150,8 +143,7 @@ struct CudaBackend {
     if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
     check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, keys, orders, n, 0, bits), "sort");
     take_back(key, keys.Current()), take_back(order, orders.Current());
-    cell_starts_kernel<<<blocks(n + 1), block>>>(n, key.data(), cells, start.data());
-    launched("sort");
+    for_each(cells + 1, CellStart{key.data(), n, start.data()});
   }
   template <class T>
   void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {

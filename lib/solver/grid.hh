@@ -55,4 +55,24 @@ struct Grid {
   }
 };
 
+/// Writes start[c], the index of the first of n sorted keys that is not less than c, by bisection: cells + 1 threads
+/// need nothing of each other, however many empty cells lie between two particles, and neighbouring threads read the
+/// same keys.
+struct CellStart {
+  const int* key;
+  int n;
+  int* start;
+  LGIW_FN void operator()(int c) const {
+    int first = 0, count = n;
+    while (count > 0) {
+      const int half = count / 2;
+      if (key[first + half] < c)
+        first += half + 1, count -= half + 1;
+      else
+        count = half;
+    }
+    start[c] = first;
+  }
+};
+
 }  // namespace lgiw

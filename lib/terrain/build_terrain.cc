@@ -139,9 +139,9 @@ std::vector<double> splice(const Case& c, Mosaic& mosaic, TerrainModel& model) {
       model.spikes += spikes.count;
       if (c.terrain.remove_spikes) model.spikes_removed += spikes.count;
       model.notes.push_back(source.what() +
-                            text(": %lld spikes of more than %.4g m, the worst %+.4g m at %.8g, %.8g; %s",
-                                 static_cast<long long>(spikes.count), threshold, spikes.worst, spikes.x, spikes.y,
-                                 c.terrain.remove_spikes ? "removed" : "kept"));
+                            text(": %lld spike%s of more than %.4g m, the worst %+.4g m at %.8g, %.8g; %s",
+                                 static_cast<long long>(spikes.count), spikes.count == 1 ? "" : "s", spikes.threshold,
+                                 spikes.worst, spikes.x, spikes.y, c.terrain.remove_spikes ? "removed" : "kept"));
     }
     coarsest = std::max(coarsest, source.pixel());
     if (s == 0) {

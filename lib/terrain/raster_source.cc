@@ -337,10 +337,11 @@ std::vector<double> RasterSource::sample(const RasterGrid& grid, double spike_th
   RasterGrid shape = window.shape();
   if (spike_threshold > 0) {
     // Of neighbours; cells that are averages of several lie further apart than the source's own.
-    const Spikes found =
-        find_spikes(native, int(shape.nx), int(shape.ny), spike_threshold * window.factor, remove_spikes);
+    const double threshold = spike_threshold * window.factor;
+    const Spikes found = find_spikes(native, int(shape.nx), int(shape.ny), threshold, remove_spikes);
     if (spikes) {
       *spikes = found;
+      spikes->threshold = threshold;
       const auto place =
           at_pixel(geo_, window.column + (found.x + 0.5) * window.factor, window.row + (found.y + 0.5) * window.factor);
       const auto [x, y] = to_case(place[0], place[1]);

@@ -20,8 +20,9 @@ std::string describe(const Extent& extent);
 
 struct Spikes {
   int64_t count = 0;
-  double worst = 0;     // m above (+) or below (-) the nearest of its neighbours in height
-  double x = 0, y = 0;  // of the worst, source CRS
+  double threshold = 0;  // m, between the cells as read
+  double worst = 0;      // m above (+) or below (-) the nearest of its neighbours in height
+  double x = 0, y = 0;   // of the worst, source CRS
 };
 
 /// One band of a raster that GDAL opens.

@@ -336,6 +336,17 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Flume, MalformedFlume,
     testing::Values(
+        Spoilt{
+            "VelocityThatSettles", "slide:\n", "numerics:\n  settle_time: 1\nslide:\n  velocity: [1, 0]\n",
+            "c.yaml:11: slide.velocity with numerics.settle_time (the scene settles to rest before the run) leave one "
+            "of the two out"},
+        Spoilt{"VelocityOfASettledSlide", "slide:\n", "soil:\n  initial_stress: settled\nslide:\n  velocity: [1, 0]\n",
+               "c.yaml:11: slide.velocity with soil.initial_stress: settled (the scene settles to rest before the run) "
+               "leave one of the two out"},
+        Spoilt{"WaveThatSettles", "\nslide:\n  bodies: [[[-0.1, 0.1], [-0.05, 0.1], [-0.05, 0.05]]]\n",
+               "\n  wave: {kind: solitary, height: 0.01, crest: 1, direction: east}\nnumerics:\n  settle_time: 1\n",
+               "c.yaml:8: water.wave with numerics.settle_time (the scene settles to rest before the run) leave one of "
+               "the two out"},
         Spoilt{"ProfileGoesBack", "[2.2, 0]", "[-1, 0]",
                "c.yaml:5: terrain.profile goes back at x = -1 (the bed has one height at each x) sort by x; move a "
                "vertical step by a little"},

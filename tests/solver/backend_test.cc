@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
+#include <vector>
+
+#include "solver/grid.hh"
 
 namespace lgiw {
 namespace {
@@ -43,6 +47,19 @@ TEST(Sort, IsStableWithAnyNumberOfThreads) {
     check_sort(50000, 90000, threads);  // too empty a domain for that
     check_sort(500, 30, threads);
     check_sort(25000, 1, threads);
+  }
+}
+
+// What a device's threads do where the CPU counts.
+TEST(CellStart, OfEachCellByItself) {
+  const int cells = 1000;
+  for (const std::vector<int>& key :
+       {std::vector<int>{}, {0}, {cells}, {0, 0, 0, cells}, {3, 3, 500, 500, 500, 501, 999, cells, cells}}) {
+    std::vector<int> start(cells + 1, -1);
+    const CellStart write{key.data(), int(key.size()), start.data()};
+    for (int c = cells; c >= 0; --c) write(c);
+    for (int c = 0; c <= cells; ++c)
+      ASSERT_EQ(start[c], std::count_if(key.begin(), key.end(), [&](int k) { return k < c; })) << "cell " << c;
   }
 }
 

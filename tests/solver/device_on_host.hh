@@ -95,7 +95,8 @@ class DeviceOnHost {
     std::iota(order.data(), order.data() + n, 0);
     std::stable_sort(order.data(), order.data() + n, [&](int a, int b) { return keys[a] < keys[b]; });
     std::sort(keys, keys + n);
-    for (int c = 0; c <= cells; ++c) start.data()[c] = int(std::lower_bound(keys, keys + n, c) - keys);
+    const CellStart write_start{keys, n, start.data()};
+    for (int c : any_order(cells + 1)) write_start(c);
   }
   template <class T>
   void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {

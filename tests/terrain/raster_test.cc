@@ -446,6 +446,35 @@ TEST(Rasters, ReadsAverageWhenASourceIsFarFinerThanTheParticles) {
   EXPECT_HAS(error, "cut it with terrain.window or choose a larger particle_spacing");
 }
 
+TEST(Spikes, OfAveragedCellsStandOutByAsManyTimesMore) {
+  Scratch scratch;
+  write_tif(scratch("flat.tif"), {0, 1125, 0, 9000, 0, -1125}, "EPSG:32611",
+            rows_of(8, 8, 0, 0, 1125, [](double, double) { return 0; }));
+  const auto one_cell = [&](const char* name, double height) {
+    write_tif(scratch(name), {0, 2, 0, 2, 0, -2}, "EPSG:32611", {{height}});
+  };
+  one_cell("low.tif", 8);
+  one_cell("high.tif", 12);
+  // 81 million cells of 1 m, more than are ever read as they are: averages of 2 x 2. Both blocks stand out more than 3
+  // cells at 60 degrees between cells of 1 m, 5.196 m, and one of them between those of 2 m.
+  const auto drawn = [](const char* name, int size, int x, int y, int width) {
+    const std::string n = std::to_string(size), w = std::to_string(width);
+    return std::string("<SimpleSource><SourceFilename relativeToVRT=\"1\">") + name +
+           "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\" xSize=\"" + n + "\" ySize=\"" +
+           n + "\"/><DstRect xOff=\"" + std::to_string(x) + "\" yOff=\"" + std::to_string(y) + "\" xSize=\"" + w +
+           "\" ySize=\"" + w + "\"/></SimpleSource>";
+  };
+  std::ofstream(scratch("huge.vrt")) << R"(<VRTDataset rasterXSize="9000" rasterYSize="9000">
+    <SRS>EPSG:32611</SRS><GeoTransform>0, 1, 0, 9000, 0, -1</GeoTransform>
+    <VRTRasterBand dataType="Float64" band="1">)"
+                                     << drawn("flat.tif", 8, 0, 0, 9000) << drawn("low.tif", 1, 2000, 1000, 2)
+                                     << drawn("high.tif", 1, 4000, 3000, 2) << "</VRTRasterBand></VRTDataset>";
+  const TerrainModel model = build(raster_case({scratch("huge.vrt")}, 50));
+  EXPECT_EQ(model.spikes, 1);
+  ASSERT_EQ(model.notes.size(), 2u);
+  EXPECT_HAS(model.notes[1], "1 spike of more than 10.39 m, the worst +12 m at 4001, 5999; kept");
+}
+
 TEST(Rasters, InputsAreHashedOnce) {
   Scratch scratch;
   const std::string file =
