@@ -48,10 +48,11 @@ $(sensitivity)/%/overrides: $(sensitivity_plan)
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 $(sensitivity)/%/particles.h5: $(sensitivity)/%/overrides $(case) $(sort $(wildcard $(case_dir)/terrain/*) $(computed_terrain)) $(user_maps) $(dem2particles)
-	$(dem2particles) $(case) $(set_flags) $$(cat $<) -o $@ -O -q
+	$(dem2particles) $(case) $(set_flags) $$(cat $<) -o $@ -O -q --dependencies $(@D)/particles.d
+-include $(wildcard $(sensitivity)/*/particles.d)
 
 $(sensitivity)/%/run.h5 $(sensitivity)/%/run.json: $(sensitivity)/%/particles.h5 $(lgiw_run)
-	$(lgiw_run) $< -o $(@D)/run.h5 -O --progress --summary $(@D)/run.json $(RUN_FLAGS)
+	$(lgiw_run) $< -o $(@D)/run.h5 -O --progress --summary $(@D)/run.json $(if $(BACKEND),--backend $(BACKEND)) $(RUN_FLAGS)
 
 $(sensitivity)/%/gauges.json: $(sensitivity)/%/run.h5 $(gauges_tool)
 	@$(gauges_tool) $< -q --json > $@

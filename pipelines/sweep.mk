@@ -55,9 +55,10 @@ $(sweep_jobs): sweep-run-%:
 	$(MAKE) --no-print-directory -f $(here)/Makefile CASE=$(CASE) BIN='$(bin)' MEMBER='$*' RUN_FLAGS="$(if $(findstring --threads,$(RUN_FLAGS)),,--threads $$threads )$(RUN_FLAGS)" sweep-member \
 	  || echo "sweep: $* failed: $$(cat '$(sweep)/$*/failed')"
 
-# One run, which leaves `failed` with a line that says why where it does not come to its end.
+# One run, which leaves `failed` with a line that says why where it does not come to its end. Under make -n it touches nothing.
 sweep-member:
-	+@mkdir -p $(work); echo 'it was stopped' > $(out)/failed; echo "sweep: $(member)$(if $(RUN_FLAGS), ($(strip $(RUN_FLAGS))))"; \
+	+@case "$${MAKEFLAGS%% *}" in (--*) ;; (*n*) exit 0 ;; esac; \
+	mkdir -p $(work); echo 'it was stopped' > $(out)/failed; echo "sweep: $(member)$(if $(RUN_FLAGS), ($(strip $(RUN_FLAGS))))"; \
 	if $(again) sweep-results > $(out)/log 2>&1; then rm $(out)/failed; else \
 	  { grep -E '^($(subst $(empty) $(empty),|,$(notdir $(tools)))): ' $(out)/log || grep -v '^make' $(out)/log || echo 'see its log'; } | tail -n 1 > $(out)/failed; exit 1; fi
 

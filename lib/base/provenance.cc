@@ -43,12 +43,11 @@ class Sha256 {
 }  // namespace
 
 void Provenance::add_input(const std::string& path) {
-  if (!enabled) return;
   std::error_code none;
   // A pipe cannot be read twice; sha256_of_file() says of what is not there that it cannot be read.
   const std::filesystem::file_status status = std::filesystem::status(path, none);
   const bool stream = path == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
-  inputs.emplace_back(path == "-" ? "stdin" : path, stream ? "" : sha256_of_file(path));
+  inputs.emplace_back(path == "-" ? "stdin" : path, stream || !enabled ? "" : sha256_of_file(path));
 }
 
 void Provenance::add_text(const std::string& name, const std::string& text) {

@@ -15,7 +15,7 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> inputs;  // (path as given, SHA-256 in hex; empty: a pipe)
   bool enabled = true;                                      // false with --no-provenance: reruns compare byte by byte
 
-  /// Hashes the file now; nothing when disabled. What comes through a pipe ("-": stdin) is named, with null for its
+  /// Hashes the file now; only its name when disabled. What comes through a pipe ("-": stdin) is named, with null for its
   /// hash.
   void add_input(const std::string& path);
   void add_text(const std::string& name, const std::string& text);

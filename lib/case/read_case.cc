@@ -14,7 +14,6 @@
 namespace lgiw {
 namespace {
 
-Quantity at_least(double low, const std::string& unit) { return {.unit = unit, .low = low}; }
 Quantity above(double low, const std::string& unit) { return {.unit = unit, .low = low, .above_low = true}; }
 Quantity automatic(const std::string& unit) { return {.unit = unit, .low = 0, .above_low = true, .automatic = true}; }
 Quantity between(double low, double high, const std::string& unit = "") {
@@ -129,7 +128,7 @@ void read_plane(const YamlSection& s, std::optional<SlideSurface::Plane>& target
 
 void read_slbl(const YamlSection& s, std::optional<SlideSurface::Slbl>& target) {
   SlideSurface::Slbl slbl;
-  s.number("tolerance", slbl.tolerance, at_least(0, "m"));
+  s.number("tolerance", slbl.tolerance, automatic("m"));
   s.number("max_depth", slbl.max_depth, automatic("m"));
   s.number("max_slope", slbl.max_slope, {.unit = "degrees", .low = 2, .high = 90, .automatic = true});
   s.integer("neighbours", slbl.neighbours, between(4, 8));
@@ -307,7 +306,7 @@ void read_fields(const YamlSection& root, Case& c) {
   root.require("terrain", "a case needs a bed", "add terrain with sources (rasters) or a profile");
   root.text("name", c.name);
   root.choice<int>("dimension", c.dimension, {{"2", 2}, {"3", 3}});
-  root.number("particle_spacing", c.dp, {.unit = "m", .low = 0, .high = 1000, .above_low = true});
+  root.number("particle_spacing", c.dp, {.unit = "m", .low = 1e-5, .high = 1000});
   const Quantity acceleration{.unit = "m/s2", .low = -100, .high = 100};
   root.numbers("gravity", c.gravity.data(), {acceleration, acceleration, acceleration}, "[0, 0, -9.81]");
   const YamlSection numerics = root.section("numerics");

@@ -238,9 +238,8 @@ class Validator {
     check_bodies("slide.bodies", slide.bodies);
     refuse_if(c_.dimension == 2 && way != "bodies", "slide." + way, "slide." + way + " in a 2-D scene",
               "its soil is given as (x, z) outlines", "use bodies");
-    refuse_if(!rasters() && (way == "before" || way == "thickness" || way == "failure_surface"), "slide." + way,
-              "slide." + way + " without terrain rasters", "a raster needs a terrain with a CRS",
-              "use bodies, or polygon with depth, plane or base_elevation");
+    refuse_if(!rasters() && way != "bodies", "slide." + way, "slide." + way + " without terrain rasters",
+              "it cuts into a terrain of rasters; soil on a profile is given as (x, z) outlines", "use bodies");
     refuse_if(!slide.polygon.empty() && !slide.polygon_file.empty(), "slide.polygon_file",
               "slide has both polygon and polygon_file", "there is one outline", "leave one of them out");
     const bool outlined = !slide.polygon.empty() || !slide.polygon_file.empty();
@@ -283,6 +282,12 @@ class Validator {
       refuse_if(!names.insert(body.name).second, key + ".name", "two bodies are named " + body.name,
                 "their results would be mixed up", "rename one of them");
       check_polygon(key + ".outline", body.outline);
+      const Extent e = extent();
+      const auto [west, east] = std::minmax_element(body.outline.begin(), body.outline.end());  // by x first
+      refuse_if((*east)[0] <= e.x_min || (*west)[0] >= e.x_max, key + ".outline",
+                "body " + body.name + " lies outside the domain",
+                "x from " + number_text((*west)[0]) + " to " + number_text((*east)[0]) + " is beyond " + e.name,
+                "move it or widen the domain");
     }
   }
 

@@ -30,17 +30,17 @@ bool rectilinear(const std::vector<Point2>& polygon) {
   return true;
 }
 
-/// Takes [low, high] out of the stretches of water.
-void cut_out(std::vector<PhaseInterval>& water, double low, double high) {
-  const std::size_t count = water.size();
+/// Takes [low, high] out of the stretches.
+void cut_out(std::vector<PhaseInterval>& stretches, double low, double high) {
+  const std::size_t count = stretches.size();
   for (std::size_t k = 0; k < count; ++k) {
-    if (water[k].high <= low || water[k].low >= high) continue;
-    PhaseInterval above = water[k];
+    if (stretches[k].high <= low || stretches[k].low >= high) continue;
+    PhaseInterval above = stretches[k];
     above.low = high;
-    water[k].high = low;
-    if (above.high > above.low) water.push_back(above);
+    stretches[k].high = low;
+    if (above.high > above.low) stretches.push_back(above);
   }
-  std::erase_if(water, [](const PhaseInterval& w) { return w.high <= w.low; });
+  std::erase_if(stretches, [](const PhaseInterval& w) { return w.high <= w.low; });
 }
 
 }  // namespace
@@ -125,16 +125,16 @@ bool PhaseColumns::wet_at(double x, double y) const {
 void PhaseColumns::at(double x, double y, double bed, std::vector<PhaseInterval>& column, bool with_outlines) const {
   column.clear();
   thread_local std::vector<double> heights;
-  thread_local std::vector<PhaseInterval> water;
+  thread_local std::vector<PhaseInterval> water, pieces;
   water.clear();
 
-  // Soil first: in overlapping bodies the one given first.
+  // Soil first: in overlapping bodies the one given first; what a later one has above and below it is its own.
   const auto add_soil = [&](double low, double high, int lattice, bool rigid, int outline) {
     low = std::max(low, bed);
-    for (const PhaseInterval& other : column)
-      if (low < other.high && high > other.low)
-        (low < other.low ? high : low) = (low < other.low ? other.low : other.high);
-    if (high > low) column.push_back({Phase::soil, low, high, 0, 0, lattice, rigid, outline});
+    if (high <= low) return;
+    pieces.assign(1, {Phase::soil, low, high, 0, 0, lattice, rigid, outline});
+    for (const PhaseInterval& other : column) cut_out(pieces, other.low, other.high);
+    column.insert(column.end(), pieces.begin(), pieces.end());
   };
   for (const Body& body : soil_) {
     if (!with_outlines && body.lattice == apart) continue;

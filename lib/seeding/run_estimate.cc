@@ -111,7 +111,10 @@ RunEstimate estimate_run(const Case& c, const ParticleCounts& counts, double sou
   const double g = std::hypot(c.gravity[0], c.gravity[1], c.gravity[2]);
   estimate.time_step = estimate_step(c, sound_speed, soil_height, flow, g).dt;
   const bool soil_settles = counts.soil > 0 && c.soil.initial_stress == InitialStress::settled;
-  const double settling = soil_settles ? 5 * std::max(soil_extent, c.dp) / soil_sound_speed(c) : c.numerics.settle_time;
+  // As lgiw-run has it (make_setup.cc): a time that is given wins.
+  const double settling = c.numerics.settle_time > 0 ? c.numerics.settle_time
+                          : soil_settles             ? 5 * std::max(soil_extent, c.dp) / soil_sound_speed(c)
+                                                     : 0;
   estimate.steps = std::ceil((c.output.end_time + settling) / estimate.time_step);
   estimate.run_time = estimate.steps * double(counts.total()) / rate;
 

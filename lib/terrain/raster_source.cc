@@ -316,12 +316,15 @@ std::vector<double> RasterSource::read(const Window& window) const {
       continue;
     }
     if (std::isnan(z)) continue;
+    // Lower than any sea floor that a wave comes from, but not than all of them.
+    const bool usual_void = z == -9999;
     z = z * scale + offset;
-    if (!(z > -12000 && z < 9000)) {
+    if (usual_void || !(z > -12000 && z < 9000)) {
       const auto [x, y] = at_pixel(geo_, window.column + (double(k % shape.nx) + 0.5) * window.factor,
                                    window.row + (double(k / shape.nx) + 0.5) * window.factor);
       throw InputError(what_ + text(": has %g m at %.8g, %.8g", z, x, y),
-                       "no place on Earth is so high or low; this looks like no-data that is not declared",
+                       usual_void ? "most rasters mean no-data by it, and this one does not declare it"
+                                  : "no place on Earth is so high or low; this looks like no-data that is not declared",
                        text("declare it, e.g. with gdal_edit.py -a_nodata %g", z));
     }
   }

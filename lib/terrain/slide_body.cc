@@ -138,7 +138,13 @@ struct Reader {
     } else if (!surface.thickness.empty()) {
       what = "slide.thickness";
       const std::vector<double> thickness = raster(surface.thickness, "thickness", 0);
-      for (std::size_t k = 0; k < z.size(); ++k) z[k] = ground.z[k] - std::abs(thickness[k]);
+      for (std::size_t k = 0; k < z.size(); ++k) {
+        LGIW_VALIDATE(!(std::abs(thickness[k]) > 2000),
+                      at_key(c, "slide.thickness") + text("slide.thickness has %g m", thickness[k]),
+                      "no slide is thicker than 2000 m; this looks like no-data that is not declared",
+                      text("declare it, e.g. with gdal_edit.py -a_nodata %g", thickness[k]));
+        z[k] = ground.z[k] - std::abs(thickness[k]);
+      }
     } else if (!surface.failure_surface.empty()) {
       what = "slide.failure_surface";
       z = raster(surface.failure_surface, "failure_surface", nan);
@@ -192,8 +198,8 @@ SlideBody make_slide(const Case& c, const HeightField& ground, const OGRSpatialR
   SlideBody body;
   body.bed = ground.z;
   body.mask.assign(ground.z.size(), 0);
-  const double cell = ground.dx * ground.dx, // Rigid bodies are not made of whole particles.
-               thinnest = c.slide.min_thickness > 0 ? c.slide.min_thickness : (c.slide.motion ? 0.05 : 0.5) * c.dp;
+  const double cell = ground.dx * ground.dx,  // Rigid bodies are not made of whole particles.
+      thinnest = c.slide.min_thickness > 0 ? c.slide.min_thickness : (c.slide.motion ? 0.05 : 0.5) * c.dp;
   double thickest = -HUGE_VAL, thin_volume = 0;
   int64_t thin_cells = 0;
   for (std::size_t k = 0; k < ground.z.size(); ++k) {

@@ -93,6 +93,10 @@ TEST(Provenance, DisabledIsEmpty) {
   provenance.add_text("stdin", "abc");
   EXPECT_EQ(provenance.to_json(), "{}");
   EXPECT_TRUE(provenance.inputs.empty());
+  // make is told of a file all the same, of which no hash is taken.
+  provenance.add_input("there is no such file");
+  EXPECT_EQ(provenance.inputs.size(), 1u);
+  EXPECT_EQ(provenance.to_json(), "{}");
 }
 
 TEST(Provenance, NamesThatAreNoUtf8AreStillJson) {

@@ -75,6 +75,13 @@ TEST(MalformedCase, TheTextsAreSoundBefore) {
 }
 
 TEST_P(Malformed, IsRefusedWithItsLine) { EXPECT_EQ(message_of(spoil(sound, GetParam())), GetParam().message); }
+TEST(MalformedSlide, DepthOnAProfile) {
+  EXPECT_EQ(
+      message_of("name: p\nparticle_spacing: 5\nterrain: {profile: [[0, 50], [200, 0]], width: 100}\n"
+                 "slide: {depth: 20, polygon: [[20, 20], [80, 20], [80, 80]]}\n"),
+      "c.yaml:4: slide.depth without terrain rasters (it cuts into a terrain of rasters; soil on a profile is given "
+      "as (x, z) outlines) use bodies");
+}
 TEST_P(MalformedFlume, IsRefusedWithItsLine) { EXPECT_EQ(message_of(spoil(flume, GetParam())), GetParam().message); }
 
 std::string name_of(const testing::TestParamInfo<Spoilt>& info) { return info.param.name; }
@@ -212,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
                "c.yaml:6: terrain.window is 0.1 m by 0.05 m (that is less than ten particles of 12 m; it looks like "
                "degrees) give it in the metres of terrain.crs"},
         Spoilt{"NegativeSpacing", "particle_spacing: 12", "particle_spacing: -12",
-               "c.yaml:2: particle_spacing is -12 (it must be above 0 and at most 1000 m) give a value in that range"},
+               "c.yaml:2: particle_spacing is -12 (it must be at least 1e-05 and at most 1000 m) give a value in that range"},
         Spoilt{"SmoothingTooLong", "", "numerics:\n  h_over_dp: 4\n",
                "c.yaml:19: numerics.h_over_dp is 4 (it must be at least 1 and at most 3) the default is 1.5"},
         Spoilt{"AutomaticKeyNegative", "depth: 40", "depth: 40\n  min_thickness: -1",
@@ -365,6 +372,9 @@ INSTANTIATE_TEST_SUITE_P(
                "c.yaml:5: terrain.sides.north has no meaning here (a 2-D scene has no y) leave it out"},
         Spoilt{"SourcesAndProfile", "terrain:", "terrain:\n  sources: [{file: dem.tif}]",
                "c.yaml:6: terrain has both sources and a profile (there is one bed) leave one of them out"},
+        Spoilt{"MovingBodyOutside", "", "bodies: [{name: B, outline: [[-3, 0], [-2, 0], [-2, 1]], motion: m.csv}]\n",
+               "c.yaml:10: body B lies outside the domain (x from -3 to -2 is beyond terrain.profile) move it or widen "
+               "the domain"},
         Spoilt{"DepthIn2D", "bodies: [[[-0.1, 0.1], [-0.05, 0.1], [-0.05, 0.05]]]", "depth: 0.1",
                "c.yaml:9: slide.depth in a 2-D scene (its soil is given as (x, z) outlines) use bodies"},
         Spoilt{"BodyOutside", "[-0.05, 0.05]]]", "[-0.5, 0.05]]]",

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "case/polygon.hh"
 #include "gtest/gtest.h"
 #include "scene.hh"
-#include "case/polygon.hh"
 #include "seeding/rigid_tiling.hh"
 
 namespace lgiw::test {
@@ -128,6 +128,43 @@ std::string outline_text(const std::vector<Point2>& outline) {
   for (const Point2& p : outline)
     text += (text.size() > 1 ? ", [" : "[") + std::to_string(p[0]) + ", " + std::to_string(p[1]) + "]";
   return text + "]";
+}
+
+// The first has the place, whichever it is; what another has above and below it is soil all the same.
+TEST(Overlap, OfBodiesIsFilledOnce) {
+  const std::string inner = "[[50, 10], [80, 10], [80, 20], [50, 20]]",
+                    outer = "[[40, 0], [70, 0], [70, 30], [40, 30]]";
+  for (const char* water : {"", "water: {level: 40}\n"})
+    for (const bool inner_first : {true, false}) {
+      const Scene s = seeded(
+          "name: o\ndimension: 2\nparticle_spacing: 1\nterrain: {profile: [[0, 0], [200, 0]]}\nslide: {bodies: [" +
+          (inner_first ? inner + ", " + outer : outer + ", " + inner) + "]}\n" + water);
+      EXPECT_NEAR(sum(s.data.soil.volume), 1000, 1e-3);
+      for (std::size_t n = 0; n < s.data.water.size(); ++n) {
+        const Point p = point(s.data.water, n);
+        EXPECT_FALSE(p[0] > 40.5 && p[0] < 69.5 && p[2] < 29.5) << p[0] << ", " << p[2];
+      }
+      if (*water) {
+        EXPECT_NEAR(sum(s.data.water.volume), 7000, 1e-2 * 7000);
+      }
+    }
+}
+
+TEST(Overlap, OfMovingBodiesHoldsNoWater) {
+  const MotionFile motion;
+  const Scene s = seeded(
+      "name: r\ndimension: 2\nparticle_spacing: 1\nterrain: {profile: [[0, 0], [100, 0]]}\nwater: {level: "
+      "25}\nbodies:\n"
+      "- {name: A, outline: [[40, 5], [50, 5], [50, 15], [40, 15]], motion: " +
+      motion.path() +
+      "}\n"
+      "- {name: B, outline: [[45, 0], [55, 0], [55, 20], [45, 20]], motion: " +
+      motion.path() + "}\n");
+  for (std::size_t n = 0; n < s.data.water.size(); ++n) {
+    const Point p = point(s.data.water, n);
+    EXPECT_FALSE(p[0] > 45.2 && p[0] < 54.8 && p[2] < 19.8) << p[0] << ", " << p[2];
+  }
+  EXPECT_NEAR(sum(s.data.water.volume), 2250, 0.005 * 2250);
 }
 
 TEST(RigidBodies, BlockOnASlope) {

@@ -36,6 +36,20 @@ TEST(Estimate, TheSoilsWaveSpeedCounts) {
   EXPECT_GT(estimate_run(c, counts, 0, 0, 1e6).memory_bytes, 1.2 * mixed);
 }
 
+TEST(Estimate, ATimeToSettleThatIsGivenWins) {
+  Case c;
+  c.dp = 0.01;
+  c.slide.present = true;
+  c.soil.initial_stress = InitialStress::settled;
+  c.output.end_time = 2;
+  const ParticleCounts counts{0, 1000, 500, 0};
+  const RunEstimate by_itself = estimate_run(c, counts, 0, 0.5, 1e6, 1);
+  EXPECT_NEAR(by_itself.steps * by_itself.time_step, 2 + 5 / soil_sound_speed(c), 2 * by_itself.time_step);
+  c.numerics.settle_time = 20;
+  const RunEstimate given = estimate_run(c, counts, 0, 0.5, 1e6, 1);
+  EXPECT_NEAR(given.steps * given.time_step, 22, 2 * given.time_step);
+}
+
 TEST(Estimate, VerletHasItsOwnLimits) {
   Case c;
   c.dimension = 2;

@@ -147,6 +147,15 @@ TEST_F(RasterErrors, UndeclaredNoData) {
   EXPECT_HAS(error, "gdal_edit.py -a_nodata -32768");
 }
 
+TEST_F(RasterErrors, UndeclaredNoDataThatCouldBeASeaFloor) {
+  rows[1][2] = -9999;
+  const std::string file = write_tif(scratch("u.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows);
+  EXPECT_HAS(error_of(raster_case({file})),
+             "has -9999 m at 25, 35 (most rasters mean no-data by it, and this one does not declare it) declare it");
+  rows[1][2] = -9998;
+  EXPECT_NO_THROW(build(raster_case({write_tif(scratch("deep.tif"), {0, 10, 0, 50, 0, -10}, "EPSG:32611", rows)})));
+}
+
 TEST_F(RasterErrors, HugeDimensions) {
   std::ofstream(scratch("huge.vrt")) << R"(<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000">
     <SRS>EPSG:32611</SRS><GeoTransform>0, 1e-3, 0, 2e6, 0, -1e-3</GeoTransform>

@@ -166,6 +166,13 @@ TEST_F(Slides, ThicknessWithPolygonAndThinCells) {
   EXPECT_HAS(model.notes.back(), "slide: 1 cells thinner than 0.5 m left out (25 m3)");
 }
 
+TEST_F(Slides, ThicknessOfNoDataThatIsNotDeclared) {
+  auto rows = rows_of(40, 30, 0, 0, 10, [](double, double) { return 3; });
+  rows[16][12] = -8888;
+  c.slide.surface.thickness = write_asc(scratch("t.asc"), 0, 0, 10, rows);
+  EXPECT_HAS(error_of(c), "slide.thickness has -8888 m (no slide is thicker than 2000 m; this looks like no-data");
+}
+
 TEST_F(Slides, PolygonFileInDegreesWithAHole) {
   // The outline of SetUp with a hole of 2 x 2 cells, in longitude and latitude.
   GDALAllRegister();  // this test writes with GDAL before the library has done so

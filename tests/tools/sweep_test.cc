@@ -130,6 +130,19 @@ TEST_F(Sweep, GathersItsRunsMarksWhatFailsAndRerunsWhatAnEditTouches) {
   ASSERT_EQ(make("sweep").status, 0);
   EXPECT_GT(date("sweep/" + names[0] + "/run.h5"), before);
 
+  // Asked what it would do, make leaves a run's mark and log as they are; a DEM beside the case is one of its files.
+  write_bytes(shop / ("out/sweep/" + names[0] + "/failed"), "boom");
+  const std::string log = read_bytes(shop / ("out/sweep/" + names[0] + "/log"));
+  EXPECT_EQ(make("-n sweep").status, 0);
+  EXPECT_EQ(read_bytes(shop / ("out/sweep/" + names[0] + "/failed")), "boom");
+  EXPECT_EQ(read_bytes(shop / ("out/sweep/" + names[0] + "/log")), log);
+  fs::remove(shop / ("out/sweep/" + names[0] + "/failed"));
+  const std::string run =
+      "MEMBER=2 -n '" + (shop / "out/sweep/level=110,friction_angle=24/particles.h5").string() + "'";
+  EXPECT_EQ(make(run).out.find("dem2particles"), std::string::npos);
+  fs::last_write_time(shop / "bowl/dem.asc", fs::file_time_type::clock::now());
+  EXPECT_NE(make(run).out.find("dem2particles"), std::string::npos);
+
   // A run by its number, and what belongs to it alone.
   const Outcome one = make("MEMBER=2 '" + (shop / "out/sweep/level=110,friction_angle=24/summary.txt").string() + "'");
   EXPECT_EQ(one.status, 0) << one.err << one.out;
@@ -197,6 +210,21 @@ TEST_F(Sweep, FaultsAreToldInOneLineBeforeAnyRun) {
             std::string::npos)
       << typo.err;
   EXPECT_FALSE(fs::exists(shop / "out/sweep/runs.json"));
+}
+
+TEST_F(Sweep, TheCaseIsThereAndIsReadPastItsComments) {
+  const std::string own = read_bytes(shop / "bowl/case.yaml");
+  const auto measured = [&] { return make("-n").out.find("deposit-volume") != std::string::npos; };
+  EXPECT_TRUE(measured());
+  write_bytes(shop / "bowl/case.yaml",
+              replaced(own, "\nslide:\n", "\n\"slide\":\n  #: motion: {file: m.csv}  # motion: none\n"));
+  EXPECT_TRUE(measured());
+  write_bytes(shop / "bowl/case.yaml", replaced(own, "\nslide:\n", "\nslide:\n  motion: {file: m.csv}\n"));
+  EXPECT_FALSE(measured());
+  fs::remove(shop / "bowl/case.yaml");
+  const Outcome nowhere = make("-n");
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_NE(nowhere.err.find("there is no case bowl ("), std::string::npos) << nowhere.err;
 }
 
 TEST_F(Sweep, TerrainAndSiteAreMapsOfTheUsersOwn) {

@@ -13,6 +13,7 @@
 #include "base/atomic_file.hh"
 #include "base/check_outputs.hh"
 #include "base/error.hh"
+#include "base/make_rule.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/sweep.hh"
@@ -30,7 +31,7 @@ const std::string library_versions = std::string("GDAL ") + GDAL_RELEASE_NAME + 
                                      std::to_string(H5_VERS_RELEASE);
 
 struct Options {
-  std::string case_file, output, sweep;
+  std::string case_file, output, dependencies, sweep;
   std::vector<std::string> overrides;
   bool dry_run = false;
   double rate = 0;
@@ -183,12 +184,16 @@ int run(const Options& options, const std::string& command) {
   if (!options.sweep.empty()) return list_sweep(options);
   LGIW_VALIDATE(options.dry_run || !options.output.empty(), "no output is named", "particles are written to a file",
                 "Give -o particles.h5, or --dry-run for counts only");
+  LGIW_VALIDATE(options.output != "-", "particles cannot go to stdout", "HDF5 writes at more places than the end",
+                "Name a file");
+  LGIW_VALIDATE(options.dependencies.empty() || !options.dry_run, "--dependencies with --dry-run",
+                "they are what particles are made anew from, and none are made", "Leave it out");
   const bool quiet = options.common.quiet;
   const Case c = read_case(options.case_file, options.overrides);
   std::vector<std::string> inputs;  // files; GDAL's own names among them are none
   if (options.case_file != "-") inputs.push_back(options.case_file);
   for (const std::string& named : files_of(c)) inputs.push_back(c.resolve(named));
-  if (!options.dry_run) check_outputs({options.output}, inputs, options.common.overwrite, false);
+  if (!options.dry_run) check_outputs({options.output, options.dependencies}, inputs, options.common.overwrite, false);
   std::optional<AtomicFile> file;
   if (!options.dry_run) file.emplace(options.output, options.common.overwrite);
   if (!quiet)
@@ -231,6 +236,12 @@ int run(const Options& options, const std::string& command) {
     seeder.seed([&](const ParticleBlock& block) { writer.append(block); }, [&](double done) { progress.update(done); });
     writer.finish();
     file->commit();
+    if (!options.dependencies.empty()) {
+      std::vector<std::string> files;  // but the case: who makes particles from it has named it
+      for (const auto& [path, hash] : provenance.inputs)
+        if (path != options.case_file) files.push_back(path);
+      write_text_file(options.dependencies, make_rule(options.output, files), options.common.overwrite);
+    }
   }
   if (options.common.json)
     std::cout << result.dump(2) << "\n";
@@ -252,6 +263,9 @@ int main(int argc, char** argv) {
   app.add_option("--set", options.overrides, "Override a key of the case, e.g. --set water.level=745; may be repeated")
       ->type_name("KEY=VALUE or LIST+=ITEM")
       ->allow_extra_args(false);
+  app.add_option("--dependencies", options.dependencies,
+                 "Rule for make that names the files the particles were made from, besides the case")
+      ->type_name("FILE");
   app.add_flag("--dry-run", options.dry_run, "Counts, volumes and what a run will take; writes nothing");
   app.add_option(
          "--sweep", options.sweep,
