@@ -130,18 +130,22 @@ std::string differing_geometry(const Case& a, const Case& b) {
     return c;
   };
   const Case p = bare(a), q = bare(b);
-  const std::pair<bool, const char*> same[] = {{p.dimension == q.dimension, "dimension"},
-                                               {p.dp == q.dp, "particle_spacing"},
-                                               {p.gravity == q.gravity, "gravity"},
-                                               {p.terrain == q.terrain, "terrain"},
-                                               {p.water.present == q.water.present, "water"},
-                                               {p.water.level == q.water.level, "water.level"},
-                                               {p.water.seed == q.water.seed, "water.seed"},
-                                               {p.water.density == q.water.density, "water.density"},
-                                               {p.water.bodies == q.water.bodies, "water.bodies"},
-                                               {p.water.wave == q.water.wave, "water.wave"},
-                                               {p.slide == q.slide, "slide"},
-                                               {p.bodies == q.bodies, "bodies"}};
+  const std::pair<bool, const char*> same[] = {
+      {p.dimension == q.dimension, "dimension"},
+      {p.dp == q.dp, "particle_spacing"},
+      {p.gravity == q.gravity, "gravity"},
+      {p.terrain == q.terrain, "terrain"},
+      {p.water.present == q.water.present, "water"},
+      {p.water.level == q.water.level, "water.level"},
+      {p.water.seed == q.water.seed, "water.seed"},
+      {p.water.density == q.water.density, "water.density"},
+      {p.water.bodies == q.water.bodies, "water.bodies"},
+      {p.water.wave == q.water.wave, "water.wave"},
+      {p.slide == q.slide, "slide"},
+      // In the stress and pressure that the soil starts with.
+      {!p.has_soil() || p.soil.density == q.soil.density, "soil.density"},
+      {!p.has_soil() || p.soil.pore_pressure == q.soil.pore_pressure, "soil.pore_pressure"},
+      {p.bodies == q.bodies, "bodies"}};
   for (const auto& [agree, key] : same)
     if (!agree) return key;
   return "";

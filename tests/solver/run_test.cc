@@ -637,6 +637,8 @@ TEST_F(Run, WhatTheParticlesWereMadeFromCannotBeChangedAndInputsAreNotOverwritte
   refused("dam.h5 -o no.h5 --case deeper.yaml", "(water.level is not what the particles were made with)");
   refused("slide.h5 -o no.h5 --set 'water={level: -0.01}'", "the case does not fit slide.h5 (water.level is not what ");
   refused("dam.h5 -o no.h5 --set gravity=[0,0,-1.6]", "(gravity is not what the particles were made with)");
+  refused("slide.h5 -o no.h5 --set soil.density=2345", "(soil.density is not what the particles were made with)");
+  refused("slide.h5 -o no.h5 --set soil.pore_pressure=none", "(soil.pore_pressure is not what the particles were made");
   refused("dam.h5 -o no.h5 --summary none/s.json", "none/s.json cannot be written");
   refused("dam.h5 -o no.h5 --summary no.h5", "no.h5 is named twice");
   refused("same.h5 -O -o same.h5", "same.h5 is an input");
