@@ -220,7 +220,7 @@ sections: [{name: A, points: [[0, 0], [2, 0]]}]
   const Case basin = parse_case(R"(name: basin
 particle_spacing: 0.02
 terrain: {profile: [[0, 1], [1, 0], [3, 0]], width: 0.5}
-slide: {polygon: [[0.2, 0.1], [0.6, 0.1], [0.6, 0.4]], depth: 0.1}
+slide: {bodies: [[[0.2, 0.8], [0.6, 0.4], [0.6, 0.8]]]}
 )",
                                 "c.yaml");
   EXPECT_EQ(basin.terrain.width, 0.5);

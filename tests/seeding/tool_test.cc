@@ -91,7 +91,9 @@ TEST(Tool, RefusesBeforeAnyWork) {
       {"dem2particles none.yaml -o p.h5", "none.yaml"},
       {"dem2particles case.yaml -o p.h5 --rate -3", "--rate"},
       {"dem2particles case.yaml -o p.h5 --set particle_spacing=0.2", "there is no soil"},
-      {"dem2particles case.yaml -o p.h5 --set particle_spacing=1e-9", "terrain nodes"},
+      {"dem2particles case.yaml -o p.h5 --set particle_spacing=1e-9", "at least 1e-05"},
+      {"dem2particles case.yaml -o p.h5 --set particle_spacing=1e-5 --set terrain.profile=[[-1e3,1e3],[1e3,0]]",
+       "terrain nodes"},
       {"dem2particles case.yaml -o p.h5 --set slide=null --set water.level=-0.2", "water.level"},
   };
   for (const auto& [command, message] : refused) {
