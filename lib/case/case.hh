@@ -250,7 +250,8 @@ std::vector<std::string> files_of(const Case& c);
 
 /// The first key of those that particles are made from - spacing, terrain, water, slide, bodies and what their initial
 /// pressure and stress follow from - in which two cases differ; empty where they agree. Files count by their names
-/// alone: a case may have moved. The friction angle, which K0 follows from, may differ: the first steps yield.
+/// alone: a case may have moved. The friction angle and the pore pressure, which only the horizontal K0 stress follows
+/// from, may differ: the first steps yield.
 std::string differing_geometry(const Case& a, const Case& b);
 
 /// What is allowed but rarely meant, one line each, for stderr.
