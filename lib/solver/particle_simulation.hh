@@ -99,7 +99,7 @@ class ParticleSimulation final : public Simulation {
   struct Water {
     Spare spare;
     Array<P> position[D];
-    Array<T> x[D], v[D], a[D], excess, excess_next, term, v_previous[D], excess_previous, shift[D];
+    Array<T> x[D], v[D], a[D], excess, excess_next, density_rate, term, v_previous[D], excess_previous, shift[D];
     Array<unsigned> id;
     Array<int> key, start;
     Array<unsigned char> cells_near;
@@ -117,7 +117,8 @@ class ParticleSimulation final : public Simulation {
         for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : shift) f(q, "shifting");
-      f(excess_next, "next density"), f(key, "cell"), f(start, "cell starts"), f(cells_near, "cells near water");
+      f(excess_next, "next density"), f(density_rate, "density rate"), f(key, "cell"), f(start, "cell starts"),
+          f(cells_near, "cells near water");
     }
   };
   struct Soil {
@@ -338,7 +339,7 @@ class ParticleSimulation final : public Simulation {
     backend_.download(&limits, limits_);
     const T absorbing = p_.absorbing_rate;
     p_.absorbing_rate = 0, without_walls_ = true;
-    compute_forces();
+    compute_forces<false>();
     InternalForces out;
     std::vector<double> water, soil;
     download_accelerations(water, soil);
@@ -443,7 +444,7 @@ class ParticleSimulation final : public Simulation {
     std::vector<T> excess(in.water_excess.begin(), in.water_excess.end());
     put(water_.excess, excess);
     if (p_.verlet) put(water_.excess_previous, excess);
-    water_.excess_next = zeros<T>(n), water_.term = zeros<T>(n);
+    (p_.verlet ? water_.density_rate : water_.excess_next) = zeros<T>(n), water_.term = zeros<T>(n);
     put(water_.id, ids(n));
     water_.key = zeros<int>(n), water_.start = zeros<int>(grid_.cells + 1);
     SetTerms<Tr> terms;
@@ -580,7 +581,8 @@ class ParticleSimulation final : public Simulation {
     backend_.for_each(n_bodies_, motion);
   }
 
-  // One step. Leapfrog moves first and takes the rates at the new place; Verlet takes all rates where the forces are.
+  // One step. Leapfrog moves first and takes the rates at the new place; Verlet takes all rates where the forces are,
+  // those of the water together with them, a step before they are used.
   void step() {
     stepping_ = true;
     if (p_.verlet) {
@@ -617,12 +619,13 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_ && n_bodies_) run<WallVelocities<Tr, true>>("images", body_view());
     if (n_water_)
       timed("water rates", [&] {
-        pairs<WaterPairRates<Tr>>(water_view());
-        WaterRates<Tr> f;
-        fill(f);
-        f.failed = &state_.data()->failed_water;
-        backend_.for_each_near(f.water, f);
-        water_.excess.swap(water_.excess_next);
+        if (p_.verlet) {
+          backend_.for_each(n_water_, failing<WaterDensity<Tr>>());
+        } else {
+          pairs<WaterPairRates<Tr>>(water_view());
+          backend_.for_each_near(water_view(), failing<WaterRates<Tr>>());
+          water_.excess.swap(water_.excess_next);
+        }
       });
     if (n_soil_) {
       run<SoilRates<Tr>>("soil rates", soil_view());
@@ -635,13 +638,17 @@ class ParticleSimulation final : public Simulation {
     if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", body_view());
     if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", soil_view());
     if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", water_view());
-    compute_forces();
+    if (p_.verlet)
+      compute_forces<true>();
+    else
+      compute_forces<false>();
   }
+  template <bool rates>
   void compute_forces() {
     backend_.single(ResetLimits<T>{limits_.data()});
     if (n_water_) {
-      timed("water forces", [&] { pairs<WaterPairForces<Tr>>(water_view()); });
-      run_limits<WaterForces<Tr>>("water forces", water_view());
+      timed("water forces", [&] { pairs<WaterPairForces<Tr, rates>>(water_view()); });
+      run_limits<WaterForces<Tr, rates>>("water forces", water_view());
     }
     if (n_soil_) {
       timed("soil forces", [&] { pairs<SoilPairForces<Tr>>(soil_view()); });
@@ -767,6 +774,13 @@ class ParticleSimulation final : public Simulation {
     fill(f);
     return f;
   }
+  /// A pass over water that may find a failed state.
+  template <class F>
+  F failing() {
+    F f = pass<F>();
+    f.failed = &state_.data()->failed_water;
+    return f;
+  }
   /// A pass over neighbours, for all particles of `own`.
   template <class F, class View>
   void run(const char* phase, const View& own) {
@@ -812,7 +826,7 @@ class ParticleSimulation final : public Simulation {
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
     w.start = water_.start.data(), w.cells_near = water_.cells_near.data(), w.excess = water_.excess.data(),
-    w.excess_next = water_.excess_next.data();
+    w.excess_next = water_.excess_next.data(), w.density_rate = water_.density_rate.data();
     w.term = water_.term.data(), w.id = water_.id.data(), w.key = water_.key.data();
     w.excess_previous = water_.excess_previous.data();
     return w;
@@ -920,6 +934,7 @@ class ParticleSimulation final : public Simulation {
       if (q.size()) f(q, "water acceleration");
     for (auto& q : water_.shift)
       if (q.size()) f(q, "water shifting");
+    if (n_water_ && p_.verlet) f(water_.density_rate, "water density rate");
     if (n_water_) f(water_.start, "water cell starts");
     soil_.carried([&](auto& q, const char* name) {
       if (q.size()) f(q, std::string("soil ") + name);

@@ -424,8 +424,42 @@ struct BodyMotion : Pass<Tr> {
 // ---------------------------------------------------------------------------------------------------------------------
 // Rates: density of water, stress of soil
 
-/// Continuity of a water particle over water. A pass of its own where each pair is computed once: it
-/// leaves the sums in excess_next.
+/// Continuity of two water particles: f(mine, other) gets what each adds to the rate of the other one.
+template <class Tr, bool diffusion>
+struct WaterPairContinuity {
+  using T = typename Tr::T;
+  using V = Vec<T, Tr::D>;
+  WaterContinuity<T, Tr::D> continuity;
+  T rho0;
+  template <class F>
+  LGIW_FN void operator()(const V& r, const V& v_ij, T f, T e_i, const T* excess, int j, const F& add) const {
+    if constexpr (diffusion) {
+      const T e_j = excess[j];
+      add(continuity(r, v_ij, f, e_i, e_j, rho0 + e_j), continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i));
+    } else {
+      const T same = continuity(r, v_ij, f);
+      add(same, same);
+    }
+  }
+};
+
+/// Gives a water particle its new density, and the pressure that follows from it. Half or twice the reference density
+/// is no water any more: `failed` is told.
+template <class Tr>
+LGIW_FN void store_density(const Parameters<Tr>& p, const WaterView<Tr>& w, int i, typename Tr::T* to,
+                           typename Tr::T next, unsigned* failed) {
+  using T = typename Tr::T;
+  if (!Motion<Tr, true>::sound(double(next), 0.5 * double(p.eos.rho0))) {
+    note_failure(failed, w.id[i]);
+    next = w.excess[i];
+  }
+  to[i] = next;
+  const T rho = p.eos.rho0 + next;
+  w.term[i] = p.eos.pressure(next) / (rho * rho);
+}
+
+/// Leapfrog: continuity of a water particle over water. A pass of its own where each pair is computed once: it leaves
+/// the sums in excess_next.
 template <class Tr>
 struct WaterPairRates : Pass<Tr> {
   using B = Pass<Tr>;
@@ -455,28 +489,22 @@ struct WaterPairRates : Pass<Tr> {
   LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
     const auto& w = this->nearby().water;
     const auto kernel = this->parameters.kernel;
-    const auto continuity = this->parameters.continuity;
-    const T e_i = this->water.excess[i], half = this->half_step(), rho0 = this->parameters.eos.rho0;
+    const WaterPairContinuity<Tr, diffusion> continuity{this->parameters.continuity, this->parameters.eos.rho0};
+    const T e_i = this->water.excess[i], half = this->half_step();
     T rate = 0;
     this->for_each_near(w, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
       const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
       const T f = kernel.gradient(Distance<T>(dot(r, r)));
-      T mine, other;
-      if constexpr (diffusion) {
-        const T e_j = w.excess[j];
-        mine = continuity(r, v_ij, f, e_i, e_j, rho0 + e_j);
-        other = continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i);
-      } else {
-        mine = other = continuity(r, v_ij, f);
-      }
-      rate += mine;
-      if constexpr (Tr::pairs_once) w.excess_next[j] += other;
+      continuity(r, v_ij, f, e_i, w.excess, j, [&](T mine, [[maybe_unused]] T other) LGIW_INLINE {
+        rate += mine;
+        if constexpr (Tr::pairs_once) w.excess_next[j] += other;
+      });
     });
     return rate;
   }
 };
 
-/// Continuity of a water particle over water, walls and soil, and its new density.
+/// Leapfrog: continuity of a water particle over water, walls and soil, and its new density.
 template <class Tr>
 struct WaterRates : WaterPairRates<Tr> {
   using B = Pass<Tr>;
@@ -529,23 +557,26 @@ struct WaterRates : WaterPairRates<Tr> {
       });
       rate += p.velocity_factor * sum;
     }
+    store_density(p, w, i, w.excess_next, w.excess[i] + T(this->state->dt) * rate, failed);
+  }
+};
+
+/// Verlet: the new density of a water particle. The rate comes with the forces, which are taken at the same places
+/// and velocities.
+template <class Tr>
+struct WaterDensity : Pass<Tr> {
+  using T = typename Tr::T;
+  unsigned* failed;
+
+  LGIW_FN void operator()(int i) const {
+    const auto& w = this->water;
+    if (this->idle() || i >= w.start[this->grid.cells]) return;
     const StepState& st = *this->state;
-    T next;
-    if (p.verlet) {
-      const bool euler = st.euler_countdown == 0;
-      next = euler ? w.excess[i] + T(st.dt) * rate : w.excess_previous[i] + T(st.dt + st.dt_previous) * rate;
-      w.excess_previous[i] = w.excess[i];
-    } else {
-      next = w.excess[i] + T(st.dt) * rate;
-    }
-    // Half or twice the reference density is no water any more.
-    if (!Motion<Tr, true>::sound(double(next), 0.5 * double(p.eos.rho0))) {
-      note_failure(failed, w.id[i]);
-      next = w.excess[i];
-    }
-    w.excess_next[i] = next;
-    const T rho = p.eos.rho0 + next;
-    w.term[i] = p.eos.pressure(next) / (rho * rho);
+    const T rate = w.density_rate[i], now = w.excess[i];
+    const T next =
+        st.euler_countdown == 0 ? now + T(st.dt) * rate : w.excess_previous[i] + T(st.dt + st.dt_previous) * rate;
+    w.excess_previous[i] = now;
+    store_density(this->parameters, w, i, w.excess, next, failed);
   }
 };
 
@@ -878,8 +909,9 @@ LGIW_FN typename Tr::T absorbing_rate(const Parameters<Tr>& p, double x, double 
 }
 
 /// Acceleration of a water particle by water, per unit of mass. A pass of its own where each pair is computed
-/// once: it leaves the sums in a.
-template <class Tr>
+/// once: it leaves the sums in a. `rates` (Verlet): the sums of continuity, too, in density_rate, which saves a second
+/// search for the same pairs and their kernel.
+template <class Tr, bool rates>
 struct WaterPairForces : Pass<Tr> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
@@ -893,20 +925,30 @@ struct WaterPairForces : Pass<Tr> {
   template <class F>
   void sums(F&& f) {
     f(this->copies.water.a);
+    if (rates) f(this->copies.water.density_rate);
   }
   LGIW_FN Limits<T> operator()(int i) const {
     const auto& w = this->water;
-    T mu_max = 0;
-    B::add(w.a, i, T(1), over_water(i, this->cell_of(w, i), B::load(w.x, i), B::load(w.v, i), mu_max));
+    T mu_max = 0, rate = 0;
+    B::add(w.a, i, T(1), over_water(i, this->cell_of(w, i), B::load(w.x, i), B::load(w.v, i), mu_max, rate));
+    if (rates) w.density_rate[i] += rate;
     return {T(0), mu_max};
   }
-  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max) const {
+  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max, T& rate) const {
+    if constexpr (rates)
+      if (this->parameters.density_diffusion) return over_water<true>(i, cell, x, v, mu_max, rate);
+    return over_water<false>(i, cell, x, v, mu_max, rate);
+  }
+  template <bool diffusion>
+  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max, T& rate) const {
     const auto& w = this->nearby().water;
+    const WaterPairContinuity<Tr, diffusion> continuity{this->parameters.continuity, this->parameters.eos.rho0};
     const auto kernel = this->parameters.kernel;
     const auto viscosity = this->parameters.water_viscosity;
-    const T rho0 = this->parameters.eos.rho0, term_i = this->water.term[i], rho_i = rho0 + this->water.excess[i];
+    const T rho0 = this->parameters.eos.rho0, term_i = this->water.term[i], e_i = this->water.excess[i],
+            rho_i = rho0 + e_i;
     V a{};
-    T mu = 0;
+    T mu = 0, sum = 0;
     this->for_each_near(w, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const V v_ij = v - B::load(w.v, j);
       const auto viscous = viscosity(dot(v_ij, r), r2, T(0.5) * (rho_i + rho0 + w.excess[j]));
@@ -915,15 +957,21 @@ struct WaterPairForces : Pass<Tr> {
       const T push = -(term_i + w.term[j] + viscous.pi) * f;
       add_scaled(a, push, r);
       if constexpr (Tr::pairs_once) B::add(w.a, j, -push, r);
+      if constexpr (rates)
+        continuity(r, v_ij, f, e_i, w.excess, j, [&](T mine, [[maybe_unused]] T other) LGIW_INLINE {
+          sum += mine;
+          if constexpr (Tr::pairs_once) w.density_rate[j] += other;
+        });
     });
     mu_max = largest(mu_max, mu);
+    rate += sum;
     return a;
   }
 };
 
-/// Acceleration of a water particle.
-template <class Tr>
-struct WaterForces : WaterPairForces<Tr> {
+/// Acceleration of a water particle; `rates`: and the rate of its density.
+template <class Tr, bool rates>
+struct WaterForces : WaterPairForces<Tr, rates> {
   using B = Pass<Tr>;
   using T = typename Tr::T;
   using V = typename B::V;
@@ -932,7 +980,7 @@ struct WaterForces : WaterPairForces<Tr> {
   template <class F>
   void reads(F&& f) {
     auto& near = this->copies;
-    if (!Tr::pairs_once) WaterPairForces<Tr>::reads(f);
+    if (!Tr::pairs_once) WaterPairForces<Tr, rates>::reads(f);
     f(near.wall, near.wall.weight, near.wall.excess, near.wall.term);
     f(near.bodies, near.bodies.weight, near.bodies.excess, near.bodies.term, near.bodies.own_v);
     if (this->parameters.water_slips) f(near.wall, near.wall.normal), f(near.bodies, near.bodies.normal);
@@ -940,8 +988,9 @@ struct WaterForces : WaterPairForces<Tr> {
   }
 
   template <bool slips, class Walls>
-  LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
+  LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a, T& rate) const {
     const auto& p = this->parameters;
+    T sum = 0;
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
       const V v_ib = B::relative(v, b, j);
       T vr;
@@ -953,12 +1002,14 @@ struct WaterForces : WaterPairForces<Tr> {
       const T rho_mean = T(0.5) * (rho_i + p.eos.rho0 + b.excess[j]);
       const T push = push_of_wall(term_i, b.term[j]) + p.water_viscosity(vr, r2, rho_mean).pi;
       add_scaled(a, -push * f, r);
+      if constexpr (rates) sum += p.continuity(r, v_ib, f);
     });
+    rate += sum;
   }
   template <bool slips>
-  LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a) const {
-    if (this->wall.n) over_walls<slips>(this->nearby().wall, cell, x, v, term_i, rho_i, a);
-    if (this->bodies.n) over_walls<slips>(this->nearby().bodies, cell, x, v, term_i, rho_i, a);
+  LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a, T& rate) const {
+    if (this->wall.n) over_walls<slips>(this->nearby().wall, cell, x, v, term_i, rho_i, a, rate);
+    if (this->bodies.n) over_walls<slips>(this->nearby().bodies, cell, x, v, term_i, rho_i, a, rate);
   }
 
   LGIW_FN Limits<T> operator()(int i) const {
@@ -968,15 +1019,18 @@ struct WaterForces : WaterPairForces<Tr> {
     const int cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
-    T mu_max = 0;
-    V a = Tr::pairs_once ? B::load(w.a, i) : this->over_water(i, cell, x, v, mu_max);
+    T mu_max = 0, rate = 0, at_walls = 0;
+    V a = Tr::pairs_once ? B::load(w.a, i) : this->over_water(i, cell, x, v, mu_max, rate);
     if (p.water_slips)
-      over_all_walls<true>(cell, x, v, term_i, rho_i, a);
+      over_all_walls<true>(cell, x, v, term_i, rho_i, a, at_walls);
     else
-      over_all_walls<false>(cell, x, v, term_i, rho_i, a);
+      over_all_walls<false>(cell, x, v, term_i, rho_i, a, at_walls);
     a = p.water_mass * a;
+    if constexpr (rates)
+      rate += (Tr::pairs_once ? w.density_rate[i] : T(0)) + compression_by_walls(at_walls, w.excess[i]);
     if (this->soil.n) {
       const auto& s = this->nearby().soil;
+      T sum = 0;
       this->for_each_near(s, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
         const V v_ij = v - B::load(s.v, j);
         const Distance<T> distance(r2);
@@ -984,11 +1038,14 @@ struct WaterForces : WaterPairForces<Tr> {
         const T f = p.kernel.gradient(distance);
         mu_max = largest(mu_max, f < 0 ? std::fabs(viscous.mu) : T(0));
         add_scaled(a, p.interface(distance, f, viscous.pi, term_i, s.image_term[j]), r);
+        if constexpr (rates) sum += p.continuity(r, v_ij, f);
       });
+      if constexpr (rates) rate += p.velocity_factor * sum;
     }
     for (int k = 0; k < D; ++k) a.c[k] += p.gravity.c[k];
     if (p.absorbing_rate > 0) add_scaled(a, -absorbing_rate(p, double(x.c[0]), D == 3 ? double(x.c[1]) : 0.0), v);
     B::store(w.a, i, a);
+    if constexpr (rates) w.density_rate[i] = rate;
     return {dot(a, a), mu_max};
   }
 };

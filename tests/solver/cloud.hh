@@ -10,7 +10,7 @@ namespace lgiw::test {
 struct CloudOptions {
   int dimension = 2;
   bool walls = true, cubic = false, paper = false, gravity = true, pore = true, bodies = false;
-  bool coulomb = false, corrected = false;
+  bool coulomb = false, corrected = false, verlet = false;
 };
 
 struct Cloud {
@@ -43,7 +43,7 @@ inline Cloud cloud(const CloudOptions& o) {
   ModelParameters& p = s.p;
   p.dimension = o.dimension, p.dp = 0.1, p.h = 0.15;
   p.gravity = o.gravity ? std::array<double, 3>{0.5, 0, -9.7} : std::array<double, 3>{0, 0, 0};
-  p.cubic_kernel = o.cubic;
+  p.cubic_kernel = o.cubic, p.verlet = o.verlet;
   p.sound_speed = 40, p.water_alpha = 0.05, p.water_slips = !o.paper, p.density_diffusion = o.paper ? 0 : 0.1;
   p.soil_density = 1900, p.young_modulus = 2e6, p.friction = 0.45, p.cohesion = 50, p.dilatancy = 0.1;
   p.soil_alpha = 0.2, p.stress_diffusion = o.paper ? 0 : 0.1, p.artificial_stress = o.paper ? 0.5 : 0;

@@ -288,8 +288,8 @@ class Oracle {
     add_scaled(pressure, -std::min(1.0, p.bed_friction * force / size(a)), a);
     return pressure;
   }
-  /// r when v was, half a step before the end.
-  static V earlier(const V& r, const V& v, double dt) { return r - 0.5 * dt * v; }
+  /// r when v was: half a step before the end with leapfrog.
+  V earlier(const V& r, const V& v, double dt) const { return r - (p.verlet ? 0 : 0.5 * dt) * v; }
   double density_rate(std::size_t i, double dt) const {
     double rate = 0, at_walls = 0;
     for (std::size_t j = 0; j < xw.size(); ++j) {
@@ -452,6 +452,69 @@ TEST(Oracle, StepWithCorrectedStrainRate2D) { compare_step<2>({.corrected = true
 TEST(Oracle, StepWithCorrectedStrainRate3D) { compare_step<3>({.dimension = 3, .corrected = true}); }
 TEST(Oracle, StepBesideAMovingBody2D) { compare_step<2>({2, true, false, false, true, true, true}); }
 TEST(Oracle, StepBesideAMovingBody3D) { compare_step<3>({3, true, false, false, true, true, true}); }
+
+/// Two steps with Verlet: rates of the place and time that a step starts from, an Euler step and then one from the
+/// state before the last.
+template <int D>
+void compare_verlet_steps_once(const Options& o) {
+  using Known = Oracle<D>;
+  Cloud c = cloud(o);
+  const auto simulation = make_cpu_simulation(c.p, c.in, NumberType::double_);
+  const Known before(c);
+  ParticleState s;
+  double dt[2];
+  dt[0] = simulation->state().dt;
+  std::vector<double> water_f, soil_f;
+  simulation->download_accelerations(water_f, soil_f);
+  simulation->advance(1, 1);
+  simulation->download(s);
+  for (std::size_t i = 0; i < before.xw.size(); ++i) {
+    EXPECT_NEAR(s.water_excess[i], before.ew[i] + dt[0] * before.density_rate(i, dt[0]), 1e-5) << i;
+    for (int k = 0; k < D; ++k) {
+      const double a = water_f[3 * i + Known::axis(k)] / before.mw + before.g[k], v = before.vw[i][k];
+      EXPECT_NEAR(s.water_x[3 * i + Known::axis(k)], before.xw[i][k] + dt[0] * v + 0.5 * dt[0] * dt[0] * a, 1e-12);
+      EXPECT_NEAR(s.water_v[3 * i + Known::axis(k)], v + dt[0] * a, 1e-6);
+    }
+  }
+  const auto stress = Known::stresses(s.soil_stress);
+  for (std::size_t i = 0; i < before.xs.size(); ++i) {
+    double adps = 0;
+    const auto expected = before.new_stress(i, dt[0], &adps);
+    for (int k = 0; k < StressSize<D>::value; ++k) EXPECT_NEAR(stress[i].c[k], expected.c[k], 0.01) << i;
+  }
+
+  Known now(c);
+  now.read(s.water_x, now.xw), now.read(s.water_v, now.vw), now.read(s.soil_x, now.xs), now.read(s.soil_v, now.vs);
+  now.ew.assign(s.water_excess.begin(), s.water_excess.end());
+  now.move_bodies(dt[0], dt[0]);
+  dt[1] = simulation->state().dt;
+  // What a run asks for between two steps leaves the rates alone.
+  simulation->internal_forces();
+  simulation->advance(1, 1);
+  EXPECT_EQ(simulation->state().step, 2);
+  simulation->download(s);
+  double largest = 0;
+  for (std::size_t i = 0; i < now.xw.size(); ++i) {
+    const double change = (dt[0] + dt[1]) * now.density_rate(i, dt[1]);
+    EXPECT_NEAR(s.water_excess[i], before.ew[i] + change, 1e-5) << i;
+    largest = std::max(largest, std::abs(change));
+  }
+  EXPECT_GT(largest, 0.1);
+}
+template <int D>
+void compare_verlet_steps(const Options& o) {
+  with_all_instructions([&] { compare_verlet_steps_once<D>(o); });
+}
+TEST(Oracle, VerletSteps2D) { compare_verlet_steps<2>({.verlet = true}); }
+TEST(Oracle, VerletSteps3D) { compare_verlet_steps<3>({.dimension = 3, .verlet = true}); }
+TEST(Oracle, VerletStepsBesideAMovingBody2D) { compare_verlet_steps<2>({.bodies = true, .verlet = true}); }
+TEST(Oracle, VerletStepsBesideAMovingBody3D) {
+  compare_verlet_steps<3>({.dimension = 3, .bodies = true, .verlet = true});
+}
+TEST(Oracle, VerletStepsOfThePaper2D) { compare_verlet_steps<2>({.cubic = true, .paper = true, .verlet = true}); }
+TEST(Oracle, VerletStepsOfThePaper3D) {
+  compare_verlet_steps<3>({.dimension = 3, .cubic = true, .paper = true, .verlet = true});
+}
 
 /// Shifting moves a particle, and changes nothing else of it, by -A h |v| grad C dt in the bulk.
 template <int D>
