@@ -424,24 +424,19 @@ struct BodyMotion : Pass<Tr> {
 // ---------------------------------------------------------------------------------------------------------------------
 // Rates: density of water, stress of soil
 
-/// Continuity of two water particles: f(mine, other) gets what each adds to the rate of the other one.
-template <class Tr, bool diffusion>
-struct WaterPairContinuity {
-  using T = typename Tr::T;
-  using V = Vec<T, Tr::D>;
-  WaterContinuity<T, Tr::D> continuity;
-  T rho0;
-  template <class F>
-  LGIW_FN void operator()(const V& r, const V& v_ij, T f, T e_i, const T* excess, int j, const F& add) const {
-    if constexpr (diffusion) {
-      const T e_j = excess[j];
-      add(continuity(r, v_ij, f, e_i, e_j, rho0 + e_j), continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i));
-    } else {
-      const T same = continuity(r, v_ij, f);
-      add(same, same);
-    }
+/// Continuity of two water particles: what each adds to the rate of the other one. `diffusion` compiles in that of
+/// density, which alone needs the excess densities.
+template <bool diffusion, class T, int D>
+LGIW_FN void continuity_of_pair(const WaterContinuity<T, D>& continuity, T rho0, const Vec<T, D>& r,
+                                const Vec<T, D>& v_ij, T f, T e_i, const T* excess, int j, T& mine, T& other) {
+  if constexpr (diffusion) {
+    const T e_j = excess[j];
+    mine = continuity(r, v_ij, f, e_i, e_j, rho0 + e_j);
+    other = continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i);
+  } else {
+    mine = other = continuity(r, v_ij, f);
   }
-};
+}
 
 /// Gives a water particle its new density, and the pressure that follows from it. Half or twice the reference density
 /// is no water any more: `failed` is told.
@@ -489,16 +484,16 @@ struct WaterPairRates : Pass<Tr> {
   LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
     const auto& w = this->nearby().water;
     const auto kernel = this->parameters.kernel;
-    const WaterPairContinuity<Tr, diffusion> continuity{this->parameters.continuity, this->parameters.eos.rho0};
-    const T e_i = this->water.excess[i], half = this->half_step();
+    const auto continuity = this->parameters.continuity;
+    const T e_i = this->water.excess[i], half = this->half_step(), rho0 = this->parameters.eos.rho0;
     T rate = 0;
     this->for_each_near(w, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
       const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
       const T f = kernel.gradient(Distance<T>(dot(r, r)));
-      continuity(r, v_ij, f, e_i, w.excess, j, [&](T mine, [[maybe_unused]] T other) LGIW_INLINE {
-        rate += mine;
-        if constexpr (Tr::pairs_once) w.excess_next[j] += other;
-      });
+      T mine, other;
+      continuity_of_pair<diffusion>(continuity, rho0, r, v_ij, f, e_i, w.excess, j, mine, other);
+      rate += mine;
+      if constexpr (Tr::pairs_once) w.excess_next[j] += other;
     });
     return rate;
   }
@@ -942,7 +937,7 @@ struct WaterPairForces : Pass<Tr> {
   template <bool diffusion>
   LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max, T& rate) const {
     const auto& w = this->nearby().water;
-    const WaterPairContinuity<Tr, diffusion> continuity{this->parameters.continuity, this->parameters.eos.rho0};
+    const auto continuity = this->parameters.continuity;
     const auto kernel = this->parameters.kernel;
     const auto viscosity = this->parameters.water_viscosity;
     const T rho0 = this->parameters.eos.rho0, term_i = this->water.term[i], e_i = this->water.excess[i],
@@ -957,11 +952,12 @@ struct WaterPairForces : Pass<Tr> {
       const T push = -(term_i + w.term[j] + viscous.pi) * f;
       add_scaled(a, push, r);
       if constexpr (Tr::pairs_once) B::add(w.a, j, -push, r);
-      if constexpr (rates)
-        continuity(r, v_ij, f, e_i, w.excess, j, [&](T mine, [[maybe_unused]] T other) LGIW_INLINE {
-          sum += mine;
-          if constexpr (Tr::pairs_once) w.density_rate[j] += other;
-        });
+      if constexpr (rates) {
+        T mine, other;
+        continuity_of_pair<diffusion>(continuity, rho0, r, v_ij, f, e_i, w.excess, j, mine, other);
+        sum += mine;
+        if constexpr (Tr::pairs_once) w.density_rate[j] += other;
+      }
     });
     mu_max = largest(mu_max, mu);
     rate += sum;

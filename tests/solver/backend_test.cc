@@ -15,14 +15,19 @@ namespace {
 
 using Backend = OpenMpBackend<Cpu<4>>;
 
-/// Sorts n random keys of 0 ... cells with so many threads, against the standard library.
-void check_sort(int n, int cells, int threads) {
+/// Sorts n keys of 0 ... cells with so many threads, and lets a field follow, against the standard library: the share
+/// `stirred` of the keys is random, the others are in order.
+void check_sort(int n, int cells, int threads, double stirred) {
   SCOPED_TRACE(std::to_string(n) + " keys, " + std::to_string(cells) + " cells, " + std::to_string(threads) +
-               " threads");
+               " threads, " + std::to_string(stirred) + " of the keys random");
   std::mt19937 random(7);
   std::uniform_int_distribution<int> any(0, cells);  // `cells` itself: left the domain
   std::vector<int> key(n), expected(n);
   for (int& k : key) k = any(random);
+  std::sort(key.begin(), key.end());
+  std::uniform_real_distribution<double> chance(0, 1);
+  for (int& k : key)
+    if (chance(random) < stirred) k = any(random);
   std::iota(expected.begin(), expected.end(), 0);
   std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) { return key[a] < key[b]; });
 
@@ -31,7 +36,13 @@ void check_sort(int n, int cells, int threads) {
   Backend backend;
   const Backend::Array<int> keys(n), order(n), start(cells + 1);
   backend.upload(keys, key.data());
-  for (int round = 0; round < 2; ++round) backend.sort_by_cell(keys, cells, order, start);
+  const Backend::Array<double> field(n), moved(n);
+  for (int round = 0; round < 2; ++round) {
+    backend.sort_by_cell(keys, cells, order, start, field, moved);
+    for (int i = 0; i < n; ++i) field.data()[i] = 0.5 * i + round, moved.data()[i] = -1;
+    backend.gather(moved, field, order);
+    for (int k = 0; k < n; ++k) ASSERT_EQ(moved.data()[k], 0.5 * expected[k] + round) << k;
+  }
   omp_set_num_threads(before);
   ASSERT_TRUE(std::equal(expected.begin(), expected.end(), order.data()));
   int first = 0;
@@ -41,13 +52,15 @@ void check_sort(int n, int cells, int threads) {
   }
 }
 
-TEST(Sort, IsStableWithAnyNumberOfThreads) {
-  for (int threads : {1, 2, 3, 8}) {
-    check_sort(50000, 1000, threads);   // in parallel where there are threads
-    check_sort(50000, 90000, threads);  // too empty a domain for that
-    check_sort(500, 30, threads);
-    check_sort(25000, 1, threads);
-  }
+TEST(Sort, IsStableAndFollowedWithAnyNumberOfThreads) {
+  for (int threads : {1, 2, 3, 8})
+    for (double stirred : {0.0, 0.01, 0.2, 1.0}) {
+      check_sort(50000, 1000, threads, stirred);   // in parallel where there are threads
+      check_sort(50000, 90000, threads, stirred);  // too empty a domain for that
+      check_sort(500, 30, threads, stirred);
+      check_sort(25000, 1, threads, stirred);
+      check_sort(1, 5, threads, stirred);
+    }
 }
 
 // What a device's threads do where the CPU counts.
