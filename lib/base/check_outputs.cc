@@ -21,8 +21,10 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
       stdout_taken = true;
       continue;
     }
-    LGIW_VALIDATE(names.insert(fs::absolute(output).lexically_normal().string()).second, output + " is named twice",
-                  "two outputs cannot share a file", "choose another name for one of them");
+    std::error_code unknown;  // of a folder that cannot be looked into; AtomicFile will tell
+    const fs::path resolved = fs::weakly_canonical(fs::absolute(output), unknown);
+    LGIW_VALIDATE(names.insert((unknown ? fs::absolute(output).lexically_normal() : resolved).string()).second,
+                  output + " is named twice", "two outputs cannot share a file", "choose another name for one of them");
     for (const std::string& input : inputs) {
       std::error_code none;  // of a file that does not exist
       LGIW_VALIDATE(!fs::equivalent(output, input, none), output + " is an input", "it would be overwritten",

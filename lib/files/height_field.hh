@@ -8,8 +8,8 @@
 
 namespace lgiw {
 
-/// Node-registered grid: z[j*nx + i] is the height at (x0 + i*dx, y0 + j*dx), row 0 in the south. Bilinear between nodes.
-/// 2-D scenes have ny == 1. NaN marks cells without terrain.
+/// Node-registered grid: z[j*nx + i] is the height at (x0 + i*dx, y0 + j*dx), row 0 in the south. Bilinear between
+/// nodes. 2-D scenes have ny == 1. NaN marks cells without terrain.
 struct HeightField {
   std::size_t nx = 0, ny = 0;
   double x0 = 0, y0 = 0, dx = 1;
@@ -21,10 +21,14 @@ struct HeightField {
   double y_max() const { return y0 + (ny ? ny - 1 : 0) * dx; }
   bool empty() const { return z.empty(); }
 
-  /// Height at (x, y); outside, the nearest edge value. NaN where a corner is NaN.
+  /// Height at (x, y); outside, the nearest edge value. NaN where a corner is NaN, and of an empty field.
   double height(double x, double y) const { return sample(x, y, nullptr); }
   /// Height and gradient (dz/dx, dz/dy) of the bilinear patch at (x, y).
   double sample(double x, double y, double* gradient) const {
+    if (empty()) {
+      if (gradient) gradient[0] = gradient[1] = NAN;
+      return NAN;
+    }
     const double u = std::clamp((x - x0) / dx, 0.0, double(nx - 1));
     const std::size_t i = std::min<std::size_t>(nx >= 2 ? nx - 2 : 0, std::size_t(u));
     const double a = u - double(i);

@@ -14,6 +14,29 @@ ComparisonRow norm(const std::string& name, const std::string& quantity, const s
   return {name, quantity, unit, nothing, nothing, error, percent, nothing, nothing, nothing};
 }
 
+/// From one direction to another, the shorter way, degrees in [-180, 180].
+double turn(double from, double to) { return std::remainder(to - from, 360); }
+
+/// Directions from north: bounds run clockwise from low to high, also across north.
+ComparisonRow direction_row(const ScalarReference& reference, const std::string& unit, double run) {
+  const auto clockwise = [](double from, double to) { return std::fmod(std::fmod(to - from, 360) + 360, 360); };
+  const bool bounded = !std::isnan(reference.low) && !std::isnan(run);
+  const bool inside = bounded && clockwise(reference.low, run) <= clockwise(reference.low, reference.high);
+  const double low = turn(reference.low, run), high = turn(reference.high, run);
+  double error = turn(reference.value, run);
+  if (std::isnan(reference.value)) error = inside ? 0 : std::abs(low) < std::abs(high) ? low : high;
+  return {"slide",
+          reference.quantity,
+          unit,
+          run,
+          reference.value,
+          error,
+          nothing,
+          reference.low,
+          reference.high,
+          bounded ? (inside ? 1.0 : 0.0) : nothing};
+}
+
 }  // namespace
 
 ComparisonRow compared(const std::string& name, const std::string& quantity, const std::string& unit, double run,
@@ -58,6 +81,7 @@ std::vector<ComparisonRow> profile_rows(const std::string& name, const ProfileNo
 }
 
 ComparisonRow scalar_row(const ScalarReference& reference, const std::string& unit, double run) {
+  if (unit == "degrees") return direction_row(reference, unit, run);
   double target = reference.value;
   if (std::isnan(target)) target = std::isnan(run) ? nothing : std::clamp(run, reference.low, reference.high);
   ComparisonRow row = compared("slide", reference.quantity, unit, run, target);

@@ -55,9 +55,11 @@ bool same(const std::string& a, const std::string& b) {
 }  // namespace
 
 Convergence convergence_of(std::vector<SpacingResult> results) {
-  std::erase_if(results, [](const SpacingResult& r) { return std::isnan(r.value); });
   std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.spacing < b.spacing; });
-  Convergence c{nothing, nothing, nothing, nothing, nothing, false, "fewer than two runs have it"};
+  Convergence c{nothing, nothing, nothing, nothing, nothing, false, "the finest run has none"};
+  if (!results.empty() && std::isnan(results.front().value)) return c;
+  std::erase_if(results, [](const SpacingResult& r) { return std::isnan(r.value); });
+  c.why = "fewer than two runs have it";
   if (results.size() < 2) return c;
   const std::size_t used = std::min<std::size_t>(results.size(), 3);
   const auto [low, high] = std::minmax_element(results.begin(), results.begin() + std::ptrdiff_t(used),

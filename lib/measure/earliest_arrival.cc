@@ -78,7 +78,12 @@ std::vector<double> earliest_arrival(const RunHeader& header, const Case& c, con
   const std::vector<uint8_t> slide = slide_nodes(header);
   const bool only_a_slide = std::find(slide.begin(), slide.end(), 1) != slide.end() && c.bodies.empty() &&
                             c.water.bodies.empty() && !c.water.wave;
-  if (!only_a_slide) return std::vector<double>(map.size(), 0);
+  const auto measured = [](const std::vector<float>& values) {
+    return std::any_of(values.begin(), values.end(), [](float v) { return !std::isnan(v); });
+  };
+  const bool known = (header.particles.counts.water == 0 || measured(depth)) &&
+                     (header.particles.counts.soil == 0 || measured(soil_speed));
+  if (!only_a_slide || !known) return std::vector<double>(map.size(), 0);
 
   // Dijkstra's algorithm over the eight neighbours.
   using Front = std::pair<double, std::size_t>;

@@ -15,7 +15,8 @@ namespace lgiw {
 /// shores, which particles fill but roughly, rise and fall while these find their places.
 ///
 /// `depth`, `speed` and `soil_speed` are the run's maxima [ny,nx], empty where it has none. 0 everywhere where
-/// something else than a slide moves the water: an initial wave, a body of water, rigid bodies of a profile.
+/// something else than a slide moves the water: an initial wave, a body of water, rigid bodies of a profile; and where
+/// the maxima are missing.
 std::vector<double> earliest_arrival(const RunHeader& header, const Case& c, const std::vector<float>& depth,
                                      const std::vector<float>& speed, const std::vector<float>& soil_speed);
 std::vector<double> earliest_arrival(const RunReader& run, const Case& c);  // of its maxima

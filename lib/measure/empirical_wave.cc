@@ -191,9 +191,10 @@ Estimate evers_boes_runup(const BankWave& wave) {
 }
 
 Estimate synolakis_runup(const BankWave& wave) {
-  const double e = wave.crest / wave.depth, cotangent = 1 / std::tan(radians(wave.slope));
+  const double e = wave.crest / wave.depth, tangent = std::tan(radians(wave.slope)), cotangent = 1 / tangent;
   Estimate runup{2.831 * std::sqrt(cotangent) * std::pow(e, 1.25) * wave.depth, {}};
-  check(runup.broken, "a/h", e, 0, 0.818 * std::pow(cotangent, -10.0 / 9));
+  // Asymptotic for (a/h)^(1/2) well above 0.288 tan(beta): towards a wall it would vanish. Above, the wave breaks.
+  check(runup.broken, "a/h", e, 0.288 * 0.288 * tangent * tangent, 0.818 * std::pow(cotangent, -10.0 / 9));
   return runup;
 }
 

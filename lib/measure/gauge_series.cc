@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.hh"
-#include "measure/norms.hh"
 #include "measure/surface_sampling.hh"
 
 namespace lgiw {
@@ -33,7 +32,8 @@ void GaugeRecorder::add(double time, const std::vector<float>& water, const std:
       const double soil_surface = sample(soil);
       const bool on_soil = series.initially_dry && (water.empty() || !std::isnan(soil_surface));
       series.surface = on_soil ? GaugeSurface::soil : GaugeSurface::water;
-      series.reference = on_soil ? soil_surface : header_.particles.still_water_level + origin[2];
+      const double before = std::isnan(soil_surface) ? series.bed : soil_surface;
+      series.reference = on_soil ? before : header_.particles.still_water_level + origin[2];
     }
     series.time.push_back(time);
     series.elevation.push_back(sample(series.surface == GaugeSurface::soil ? soil : water));
@@ -48,20 +48,28 @@ double gauge_arrival(const GaugeSeries& series, double threshold, double earlies
   return arrival_time(part_of(change, std::max(earliest, series.time.front()), series.time.back()), threshold);
 }
 
+Series heights_of_wave(const GaugeSeries& series, double earliest) {
+  Series heights;
+  for (std::size_t k = 0; k < series.time.size(); ++k) {
+    if (series.time[k] < earliest) continue;
+    heights.time.push_back(series.time[k]);
+    heights.value.push_back(series.elevation[k] - series.reference);
+  }
+  return heights;
+}
+
 GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds, double earliest) {
   GaugePeaks peaks{no_value, no_value, no_value, no_value, no_value, {}};
-  const std::size_t n = series.time.size();
-  const auto height = [&](std::size_t k) { return series.elevation[k] - series.reference; };
-  for (std::size_t k = 0; k < n; ++k)
-    if (!std::isnan(series.elevation[k]) && !(series.elevation[k] <= peaks.max_elevation)) {
+  for (std::size_t k = 0; k < series.time.size(); ++k)
+    if (series.time[k] >= earliest && !std::isnan(series.elevation[k]) &&
+        !(series.elevation[k] <= peaks.max_elevation)) {
       peaks.max_elevation = series.elevation[k];
-      peaks.max_height = height(k);
+      peaks.max_height = series.elevation[k] - series.reference;
       peaks.time_of_max = series.time[k];
     }
+  const Series heights = heights_of_wave(series, earliest);
 
   const bool water = series.surface == GaugeSurface::water;
-  Series heights{series.time, series.elevation};
-  for (std::size_t k = 0; k < n; ++k) heights.value[k] = height(k);
   for (double threshold : thresholds) peaks.arrival.push_back(gauge_arrival(series, threshold, earliest));
   const double depth = water && !thresholds.empty() ? thresholds.front() : 0;
   const Extreme trough = water ? first_trough(heights, depth) : features_of(heights, depth).lowest;

@@ -6,6 +6,7 @@
 
 #include "case/case.hh"
 #include "files/run_file.hh"
+#include "measure/norms.hh"
 
 namespace lgiw {
 
@@ -16,7 +17,8 @@ struct GaugeSeries {
   GaugeSurface surface = GaugeSurface::water;
   bool initially_dry = false;     // a water gauge on land
   double bed = 0;                 // elevation
-  double reference = 0;           // what heights are measured from: still water level; on soil its surface at the start
+  double reference = 0;           // what heights are measured from: still water level; on soil its surface at the
+                                  // start, or the bed where there was none
   std::vector<double> time;       // s
   std::vector<double> elevation;  // of the surface in the case's vertical datum, m; NaN where dry
 };
@@ -38,7 +40,7 @@ class GaugeRecorder {
 struct GaugePeaks {
   double max_elevation = 0, max_height = 0, time_of_max = 0;  // height above the reference; NaN when never wet
   /// Water: lowest height in the first stretch below still level that goes deeper than the first threshold. Soil:
-  /// lowest height of all. NaN where there is none.
+  /// lowest height of all. NaN where there is none. Nothing before the wave can be there counts.
   double first_trough = 0, time_of_trough = 0;
   /// gauge_arrival() for each threshold.
   std::vector<double> arrival;
@@ -47,6 +49,9 @@ struct GaugePeaks {
 /// The first time, not before `earliest` (earliest_arrival.hh), at which the surface differs from the reference, or the
 /// water over dry land above it is deep, by more than `threshold`; linear between samples; NaN: never.
 double gauge_arrival(const GaugeSeries& series, double threshold, double earliest);
+
+/// A gauge's heights above its reference, of the samples from `earliest` on.
+Series heights_of_wave(const GaugeSeries& series, double earliest);
 
 GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thresholds, double earliest = 0);
 

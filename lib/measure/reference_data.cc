@@ -101,8 +101,9 @@ std::vector<ScalarReference> scalar_references(const CsvText& table) {
     LGIW_VALIDATE(std::isnan(s.low) == std::isnan(s.high) && !(std::isnan(s.value) && std::isnan(s.low)),
                   s.place + ": " + s.quantity + " has neither a value nor both bounds",
                   "there is nothing to compare with", "give value, or low and high, or all three");
-    LGIW_VALIDATE(std::isnan(s.low) || s.low <= s.high, s.place + ": low is above high", "they bound the " + s.quantity,
-                  "exchange them");
+    const bool direction = s.quantity == "direction_deg";  // whose bounds may enclose north
+    LGIW_VALIDATE(std::isnan(s.low) || direction || s.low <= s.high, s.place + ": low is above high",
+                  "they bound the " + s.quantity, "exchange them");
     scalars.push_back(s);
   }
   return scalars;

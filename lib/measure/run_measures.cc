@@ -1,6 +1,7 @@
 #include "measure/run_measures.hh"
 
 #include "base/error.hh"
+#include "measure/earliest_arrival.hh"
 #include "measure/gauge_series.hh"
 #include "measure/section_runup.hh"
 #include "measure/slide_history.hh"
@@ -15,8 +16,9 @@ std::vector<Measure> run_measures(const RunReader& run, const Case& c) {
     std::vector<Gauge> wave_gauges;
     for (const Gauge& gauge : c.gauges)
       if (gauge.quantity == GaugeQuantity::surface) wave_gauges.push_back(gauge);
+    const std::vector<double> earliest = earliest_arrival(run, c);
     GaugeRecorder gauges(header, wave_gauges);
-    RunupRecorder runup(header, c.sections);
+    RunupRecorder runup(header, c.sections, earliest);
     for (std::size_t k = 0; k < run.surface_times().size(); ++k) {
       const std::vector<float> water = run.water_surface(k);
       const double time = run.surface_times()[k];
@@ -25,7 +27,9 @@ std::vector<Measure> run_measures(const RunReader& run, const Case& c) {
     }
     for (const GaugeSeries& s : gauges.series()) {
       if (s.surface != GaugeSurface::water) continue;
-      const GaugePeaks peaks = gauge_peaks(s, {arrival_threshold(c, header.particles.dp)});
+      const auto& origin = header.particles.origin;
+      const double first = earliest_near(header.map, earliest, s.gauge.x - origin[0], s.gauge.y - origin[1]);
+      const GaugePeaks peaks = gauge_peaks(s, {arrival_threshold(c, header.particles.dp)}, first);
       measures.push_back({s.gauge.name, "max_height_m", "m", peaks.max_height});
       measures.push_back({s.gauge.name, "time_of_max_s", "s", peaks.time_of_max});
     }

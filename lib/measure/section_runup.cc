@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "measure/earliest_arrival.hh"
+
 namespace lgiw {
 namespace {
 
@@ -25,15 +27,20 @@ std::size_t lowest_wet_station(const RunHeader& header, const std::vector<Statio
 
 }  // namespace
 
-RunupRecorder::RunupRecorder(const RunHeader& header, const std::vector<Section>& sections) : header_(header) {
+RunupRecorder::RunupRecorder(const RunHeader& header, const std::vector<Section>& sections,
+                             std::vector<double> earliest)
+    : header_(header) {
   for (const Section& section : sections) {
     Line line;
     line.stations = section_stations(section, header.particles.origin, header.map.dx / 2);
-    for (const Station& s : line.stations) line.bed.push_back(header.particles.bed.height(s.x, s.y));
+    for (const Station& s : line.stations) {
+      line.bed.push_back(header.particles.bed.height(s.x, s.y));
+      line.earliest.push_back(earliest.empty() ? 0 : earliest_near(header.map, earliest, s.x, s.y));
+    }
     lines_.push_back(std::move(line));
     SectionRunup runup;
     runup.name = section.name;
-    runup.max_elevation = runup.max_height = runup.time_of_max = no_value;
+    runup.max_elevation = runup.max_height = runup.time_of_max = runup.overtopped = no_value;
     sections_.push_back(std::move(runup));
   }
 }
@@ -52,7 +59,9 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
     SectionRunup& section = sections_[l];
     if (section.time.empty()) find_bank(line, section, water);
     double reached = no_value;
+    bool by_wave = false;
     if (section.has_bank) {
+      const std::size_t end = line.stations.size() - 1;
       std::size_t edge = line.stations.size();
       double surface = no_value;
       for (std::size_t k = line.first; k < line.stations.size(); ++k) {
@@ -62,14 +71,17 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
       }
       if (edge < line.stations.size()) {
         // A map cell ahead is two stations: on a steep bank the cell that has just fallen dry may rise by more than dp.
-        const std::size_t ahead = std::min(edge + 2, line.stations.size() - 1);
-        const bool level = ahead > edge && line.bed[ahead] > surface - header_.particles.dp;
+        const std::size_t ahead = std::min(edge + 2, end);
+        // Over the end of the line the water goes on, no one knows how high.
+        const bool level = edge == end || line.bed[ahead] > surface - header_.particles.dp;
+        by_wave = time >= line.earliest[edge];
+        if (edge == end && by_wave && std::isnan(section.overtopped)) section.overtopped = time;
         reached = (level ? std::max(surface, line.bed[edge]) : line.bed[edge]) + header_.particles.origin[2];
       }
     }
     section.time.push_back(time);
     section.elevation.push_back(reached);
-    if (!std::isnan(reached) && !(reached <= section.max_elevation)) {
+    if (by_wave && !std::isnan(reached) && !(reached <= section.max_elevation)) {
       section.max_elevation = reached;
       section.max_height = reached - header_.particles.origin[2] - header_.particles.still_water_level;
       section.time_of_max = time;

@@ -15,17 +15,20 @@ struct SectionRunup {
   bool has_bank = false;          // whether the line leaves the lake at its far end
   std::vector<double> time;       // s
   std::vector<double> elevation;  // highest bed reached by water on the opposite bank, case datum; NaN without a bank
-  double max_elevation = 0, max_height = 0, time_of_max = 0;  // height above still water level; NaN without a bank
+  /// Height above still water level; NaN without a bank, and where no wave can have reached it.
+  double max_elevation = 0, max_height = 0, time_of_max = 0;
+  double overtopped = 0;  // s: when water first stands at the line's end, whence run-up is a lower bound; NaN: never
 };
 
 /// Follows the water's edge along section lines from the slide to the opposite bank. That bank is the part of the line
 /// beyond the lowest ground that is under water at the first time, provided that the line ends on dry land. The edge
 /// lies at the wet place with the highest bed; run-up is the water surface there carried level to the bank, since water
 /// less than half of dp deep is not seen (a lake at rest has run-up 0), or the bed itself before a front steeper than
-/// that.
+/// that. The largest does not count what the surface there does before `earliest` (earliest_arrival.hh), which may be
+/// empty.
 class RunupRecorder {
  public:
-  RunupRecorder(const RunHeader& header, const std::vector<Section>& sections);
+  RunupRecorder(const RunHeader& header, const std::vector<Section>& sections, std::vector<double> earliest = {});
   /// The next water surface, [ny,nx] local.
   void add(double time, const std::vector<float>& water);
   const std::vector<SectionRunup>& sections() const { return sections_; }
@@ -34,7 +37,8 @@ class RunupRecorder {
   struct Line {
     std::vector<Station> stations;
     std::vector<double> bed;  // local
-    std::size_t first = 0;    // of the opposite bank
+    std::vector<double> earliest;
+    std::size_t first = 0;  // of the opposite bank
   };
   void find_bank(Line& line, SectionRunup& section, const std::vector<float>& water) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "case/polygon.hh"
@@ -55,8 +56,32 @@ std::vector<double> body_pieces(const ParticleHeader& header, const Case& c, std
   return points;
 }
 
-/// A body at each row of its motion; between rows it moves evenly.
-SlideEntry body_entry(const ParticleHeader& header, const BodyMotion& motion, const std::vector<double>& start) {
+/// What of a motion lies between two times, with rows at both; it rests before its first row and after its last one.
+BodyMotion part_of_motion(const BodyMotion& whole, double from, double to) {
+  BodyMotion part = whole;
+  part.time.clear(), part.displacement.clear(), part.pitch.clear();
+  const auto add = [&](double time) {
+    const auto next = std::upper_bound(whole.time.begin(), whole.time.end(), time);
+    const std::size_t b = std::min(std::size_t(next - whole.time.begin()), whole.time.size() - 1), a = b ? b - 1 : 0;
+    const double span = whole.time[b] - whole.time[a];
+    const double share = span > 0 ? std::clamp((time - whole.time[a]) / span, 0.0, 1.0) : 0;
+    std::array<double, 3> way;
+    for (std::size_t k = 0; k < 3; ++k)
+      way[k] = (1 - share) * whole.displacement[a][k] + share * whole.displacement[b][k];
+    part.time.push_back(time), part.displacement.push_back(way);
+    part.pitch.push_back((1 - share) * whole.pitch[a] + share * whole.pitch[b]);
+  };
+  add(from);
+  for (double time : whole.time)
+    if (time > from && time < to) add(time);
+  if (to > from) add(to);
+  return part;
+}
+
+/// A body at each row of its motion until the end of the run; between rows it moves evenly.
+SlideEntry body_entry(const ParticleHeader& header, const BodyMotion& whole, const std::vector<double>& start,
+                      double end) {
+  const BodyMotion motion = part_of_motion(whole, 0, std::max(0.0, std::min(end, whole.time.back())));
   const double ahead[2] = {std::sin(motion.heading * degree), std::cos(motion.heading * degree)};
   SlideEntryRecorder recorder(header, header.dp, std::pow(header.dp, header.dimension));
   const auto placed = [&](std::size_t row) {
@@ -228,8 +253,10 @@ SlideEntry measure_slide_entry(const RunReader& run, const Case& c) {
     }
     return recorder.entry();
   }
+  const std::vector<double>& times = run.surface_times();
+  const double end = times.empty() ? std::numeric_limits<double>::max() : times.back();
   for (std::size_t k = 0; k < p.bodies.size(); ++k) {
-    const SlideEntry entry = body_entry(p, p.bodies[k], body_pieces(p, c, k));
+    const SlideEntry entry = body_entry(p, p.bodies[k], body_pieces(p, c, k), end);
     if (entry.volume > 0) return entry;
   }
   return {};

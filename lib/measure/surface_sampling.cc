@@ -41,16 +41,21 @@ const HeightField& ground_of(const ParticleHeader& header) {
 
 Case case_of_run(const RunHeader& header, const std::string& run_path, const std::string& case_file) {
   Case c;
+  const bool described = !header.particles.case_text.empty();
+  if (described) c = parse_case(header.particles.case_text, run_path + ":case");
   if (!case_file.empty()) {
-    c = read_case(case_file);
-  } else if (!header.particles.case_text.empty()) {
-    c = parse_case(header.particles.case_text, run_path + ":case");
+    const Case other = read_case(case_file);
+    LGIW_VALIDATE(other.dimension == header.particles.dimension,
+                  case_file + " is a case of " + std::to_string(other.dimension) + " dimensions",
+                  "the run has " + std::to_string(header.particles.dimension),
+                  "name the case that the run was made from");
+    if (!described) {
+      c = other;
+    } else {
+      c.gauges = other.gauges, c.sections = other.sections, c.deposit = other.deposit;
+      c.output.arrival_threshold = other.output.arrival_threshold;
+    }
   }
-  const bool described = !case_file.empty() || !header.particles.case_text.empty();
-  LGIW_VALIDATE(!described || c.dimension == header.particles.dimension,
-                case_file + " is a case of " + std::to_string(c.dimension) + " dimensions",
-                "the run has " + std::to_string(header.particles.dimension),
-                "name the case that the run was made from");
   check_inside(header.particles, c.gauges, c.sections);
   return c;
 }

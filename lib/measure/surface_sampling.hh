@@ -25,8 +25,10 @@ std::vector<double> at_nodes(const SurfaceMap& map, const HeightField& field);
 /// The ground before the slide, or the bed where the file has none.
 const HeightField& ground_of(const ParticleHeader& header);
 
-/// The gauges and sections of the case a run was made from; `case_file` (empty: none) replaces it. Throws InputError
-/// for gauges and sections outside the run's domain, for a case of another dimension, and for a text that is no case.
+/// The case a run was made from, with the gauges, sections and thresholds of `case_file` (empty: its own): what is
+/// measured can be chosen anew, what was computed cannot. All of `case_file` where the run holds no case. Throws
+/// InputError for gauges and sections outside the run's domain, for a case of another dimension, and for a text that is
+/// no case.
 Case case_of_run(const RunHeader& header, const std::string& run_path, const std::string& case_file);
 /// A place on a section line.
 struct Station {

@@ -57,10 +57,6 @@ void ToolOutputs::check(const std::vector<std::string>& outputs) const {
   check_outputs(outputs, inputs_, common_.overwrite, common_.json);
 }
 
-void ToolOutputs::check_files(const std::vector<std::string>& outputs) const {
-  check_outputs(outputs, inputs_, common_.overwrite, false);
-}
-
 void ToolOutputs::hash_inputs() {
   for (const std::string& input : inputs_) provenance_.add_input(input);
 }

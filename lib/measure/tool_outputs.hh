@@ -37,8 +37,6 @@ class ToolOutputs {
               const std::vector<std::string>& inputs);
   /// check_outputs() with what was given here.
   void check(const std::vector<std::string>& outputs) const;
-  /// The same of outputs that lie in a folder of their own, none of which goes to stdout.
-  void check_files(const std::vector<std::string>& outputs) const;
   /// Hashes the inputs, for --no-provenance nothing; throws InputError where one cannot be read.
   void hash_inputs();
 

@@ -203,6 +203,9 @@ TEST_F(Comparison, DepositReferencesAreRefusedInOneLine) {
       "quantity,value\nwidth_m,\n",
       "r.csv:2: width_m has neither a value nor both bounds (there is nothing to compare with) give value, or low and "
       "high, or all three");
+  write_bytes(shop / "r.csv", "quantity,low,high\ndirection_deg,340,100\n");
+  const Outcome across = shop.run("deposit-volume run.h5 -q --no-provenance --compare r.csv");
+  EXPECT_NE(across.out.find("slide,direction_deg,degrees,90,nan,0,nan,340,100,1\n"), std::string::npos) << across.out;
   refuse("quantity,value,low,high\nwidth_m,1,3,2\n",
          "r.csv:2: low is above high (they bound the width_m) exchange them");
   refuse("quantity,value\nwidth_m,1\nwidth_m,2\n",

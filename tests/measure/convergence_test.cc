@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <cmath>
 
 #include "measure/comparison.hh"
@@ -65,6 +67,9 @@ TEST(Convergence, OfFewerThanThreeResults) {
   const Convergence one = convergence_of({{2, nan_value}, {1, 10}});
   EXPECT_TRUE(std::isnan(one.error));
   EXPECT_EQ(one.why, "fewer than two runs have it");
+  const Convergence coarse = convergence_of({{1, nan_value}, {2, 12}, {4, 13}, {8, 15}});
+  EXPECT_TRUE(std::isnan(coarse.error)) << "the error told is that of the finest run";
+  EXPECT_EQ(coarse.why, "the finest run has none");
   EXPECT_TRUE(std::isnan(convergence_of({{1, 0}, {2, 1}}).spread));  // there is nothing to be relative to
   EXPECT_DOUBLE_EQ(convergence_of({{1, 0}, {2, 1}}).error, 1);
 }
@@ -89,6 +94,18 @@ TEST(Comparison, OfAQuantityWithItsBand) {
   EXPECT_EQ(scalar_row(band, "m", 90).error, 0);
   EXPECT_EQ(scalar_row(band, "m", 90).inside, 1);
   EXPECT_DOUBLE_EQ(scalar_row(band, "m", 70).error, -10);
+  const auto turned = [](double value, double low, double high, double run) {
+    return scalar_row({"direction_deg", "r.csv:4", value, low, high}, "degrees", run);
+  };
+  EXPECT_NEAR(turned(10, nan_value, nan_value, 339).error, -31, 1e-12);
+  EXPECT_NEAR(turned(350, nan_value, nan_value, 20).error, 30, 1e-12);
+  EXPECT_TRUE(std::isnan(turned(10, nan_value, nan_value, 339).error_percent));
+  for (const auto& [run, inside, error] :
+       {std::array{350.0, 1.0, 0.0}, {5.0, 1.0, 0.0}, {30.0, 0.0, 10.0}, {330.0, 0.0, -10.0}}) {
+    EXPECT_EQ(turned(nan_value, 340, 20, run).inside, inside) << run;
+    EXPECT_NEAR(turned(nan_value, 340, 20, run).error, error, 1e-12) << run;
+  }
+  EXPECT_EQ(turned(nan_value, 20, 340, 350).inside, 0);
   const std::string text = comparison_table({row}).text();
   EXPECT_EQ(text,
             "name,quantity,unit,run,reference,error,error_percent,low,high,inside\n"

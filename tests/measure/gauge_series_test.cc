@@ -162,6 +162,41 @@ TEST(ArrivalMap, WaterThatIsMeasuredOnlyLaterIsStillTheLake) {
   EXPECT_NEAR(gauge_arrival(gauge.series()[0], 0.5, 0), 3.5, 1e-5);
 }
 
+TEST(Gauges, WhatASurfaceDoesBeforeTheFastestWaveIsNoCrestAndNoTrough) {
+  GaugeSeries series;
+  series.reference = 10;
+  series.time = {0, 1, 2, 3, 4, 5, 6, 7};
+  series.elevation = {15, 7, 10, 10, 12, 10, 9, 10};
+  EXPECT_EQ(gauge_peaks(series, {0.5}).max_height, 5);
+  EXPECT_EQ(gauge_peaks(series, {0.5}).first_trough, -3);
+  const GaugePeaks peaks = gauge_peaks(series, {0.5}, 1.5);
+  EXPECT_EQ(peaks.max_elevation, 12);
+  EXPECT_EQ(peaks.max_height, 2);
+  EXPECT_EQ(peaks.time_of_max, 4);
+  EXPECT_EQ(peaks.first_trough, -1);
+  EXPECT_EQ(peaks.time_of_trough, 6);
+  for (const double never : {8.0, infinite}) {
+    EXPECT_TRUE(std::isnan(gauge_peaks(series, {0.5}, never).max_height));
+    EXPECT_TRUE(std::isnan(gauge_peaks(series, {0.5}, never).first_trough));
+  }
+}
+
+TEST(Gauges, AheadOfADrySlideMeasureItFromTheBed) {
+  RunHeader header = basin_header();
+  header.particles.counts.water = 0;
+  GaugeRecorder recorder(header, {{"ahead", 1020, 20}});
+  std::vector<float> soil(header.map.size(), NAN);
+  recorder.add(0, {}, soil);
+  for (float& z : soil) z = 3;  // over ground at 0
+  recorder.add(1, {}, soil);
+  const GaugeSeries& series = recorder.series()[0];
+  EXPECT_EQ(series.surface, GaugeSurface::soil);
+  EXPECT_DOUBLE_EQ(series.reference, 500);
+  const GaugePeaks peaks = gauge_peaks(series, {0.5});
+  EXPECT_DOUBLE_EQ(peaks.max_height, 3);
+  EXPECT_DOUBLE_EQ(peaks.arrival[0], 1);
+}
+
 TEST(Gauges, ArriveNotBeforeTheFastestWave) {
   const auto series = recorded(basin_header(), {{"settling", 1060, 4}, {"G1", 1040, 20}});
   EXPECT_EQ(gauge_arrival(series[0], 0.5, 0), 0);
@@ -197,6 +232,35 @@ TEST(Runup, BeforeASteepFrontIsTheBed) {
   recorder.add(1, bore);
   // The front lies half-way between the nodes at 86 and 88: bed 13.5.
   EXPECT_NEAR(recorder.sections()[0].max_elevation, 513.5, 1e-5);
+}
+
+TEST(Runup, OverTheEndOfItsLineIsALowerBound) {
+  // The line ends at x = 82, where the bed is at 11: the water, which stands at 14 m, passes it.
+  const RunHeader header = basin_header();
+  RunupRecorder recorder(header, {{"short", {{1010, 20}, {1082, 20}}}, {"A", {{1010, 20}, {1096, 20}}}});
+  for (int k = 0; k <= 60; ++k) recorder.add(0.5 * k, basin_water(header.map, 0.5 * k));
+  const SectionRunup &cut = recorder.sections()[0], &whole = recorder.sections()[1];
+  EXPECT_NEAR(cut.max_height, 4, 1e-5);
+  EXPECT_GT(cut.overtopped, 8.9);  // the level passes 11 m at 9 s
+  EXPECT_LT(cut.overtopped, 10.1);
+  EXPECT_NEAR(whole.max_height, 4, 1e-5);
+  EXPECT_TRUE(std::isnan(whole.overtopped));
+}
+
+TEST(Runup, BeforeTheFastestWaveIsNone) {
+  const RunHeader header = basin_header();
+  for (const double earliest : {0.0, 13.0, infinite}) {
+    RunupRecorder recorder(header, {{"A", {{1010, 20}, {1096, 20}}}}, std::vector<double>(header.map.size(), earliest));
+    for (int k = 0; k <= 60; ++k) recorder.add(0.5 * k, basin_water(header.map, 0.5 * k));
+    const SectionRunup& s = recorder.sections()[0];
+    EXPECT_NEAR(s.elevation[24], 514, 1e-5);
+    const double highest = earliest == 0 ? 4 : 3;
+    if (earliest > 30) {
+      EXPECT_TRUE(std::isnan(s.max_height));
+    } else {
+      EXPECT_NEAR(s.max_height, highest, 1e-5);
+    }
+  }
 }
 
 TEST(Runup, WithoutAnOppositeBankIsNone) {

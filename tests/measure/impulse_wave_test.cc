@@ -88,7 +88,9 @@ TEST_F(ImpulseWave, BrokenLimitsAreToldWithValueAndRangeAndRecalledFormulasMarke
   EXPECT_NE(text.out.find("* recalled, not verified against the source\n"), std::string::npos);
   const Outcome table = shop.run(command + " -o -");
   EXPECT_EQ(table.status, 0);
-  EXPECT_EQ(table.err, "impulse-wave: VAW 254 (Evers et al. 2019, 3-D): r/h 21.2 is not from 1 to 16\n");
+  EXPECT_EQ(table.err,
+            "impulse-wave: Synolakis (Synolakis 1987): a/h 0.0406 at 500m (and others at 1700m) is not from 0.0407 to "
+            "0.551\nimpulse-wave: VAW 254 (Evers et al. 2019, 3-D): r/h 21.2 is not from 1 to 16\n");
   const CsvText csv = parse_csv(table.out, "table");
   EXPECT_EQ(csv.rows.size(), 3u + 2 * (6 + 3));
   EXPECT_EQ(csv.rows.back()[csv.column("limits_broken")], "r/h 21.2 (1..16)");
@@ -167,6 +169,36 @@ TEST_F(ImpulseWave, TwoDimensionalRunsTakeTheFormulasOfAChannel) {
   const json& gauge = result["places"][1];
   EXPECT_NEAR(estimate(gauge, "wave_height_m", "VAW 254")["simulated"].get<double>(), 3, 1e-4);
   EXPECT_GT(estimate(result["places"][2], "runup_m", "Mueller")["predicted"].get<double>(), 0);
+  // A width makes the volume that was measured per metre one of the whole width.
+  const json wide = summary("impulse-wave flume.h5 --width 5");
+  EXPECT_NEAR(wide["slide"]["volume_m3"].get<double>(), 1000, 1e-9);
+  EXPECT_EQ(wide["numbers"]["P"], result["numbers"]["P"]);
+  EXPECT_EQ(summary("impulse-wave flume.h5 --width 5 --volume 7")["slide"]["volume_m3"], 7);
+}
+
+TEST_F(ImpulseWave, AnotherCaseFileChangesNoPhysics) {
+  const std::string other =
+      replaced_all(basin_case, "{friction_angle", "{density: 2600, friction_angle") + "gravity: [0, 0, -1.62]\n";
+  write_bytes(shop / "other.yaml", replaced_all(other, "name: G1", "name: Q1"));
+  const json own = summary("impulse-wave entry.h5"), chosen = summary("impulse-wave entry.h5 --case other.yaml");
+  EXPECT_EQ(chosen["places"][1]["name"], "Q1");
+  EXPECT_EQ(chosen["numbers"], own["numbers"]);
+  EXPECT_EQ(chosen["slide"], own["slide"]);
+}
+
+TEST_F(ImpulseWave, NumbersAreFiniteAndNoneIsWithoutEffect) {
+  for (const char* option :
+       {"--distance nan", "--angle nan --distance 500", "--speed inf", "--bank-slope nan --distance 9"}) {
+    const Outcome outcome = shop.run(example + " " + option);
+    EXPECT_EQ(outcome.status, 2) << option;
+    EXPECT_NE(outcome.err.find(" is not a number "), std::string::npos) << outcome.err;
+    EXPECT_LT(outcome.err.size(), 160u) << outcome.err;
+  }
+  EXPECT_EQ(shop.run(example + " --angle 30").status, 2);
+  EXPECT_EQ(shop.run("impulse-wave --channel --speed 3 --thickness 0.1 --density 1700 --slope 45 --depth 0.3 --volume "
+                     "0.1 --distance 3 --angle 80")
+                .status,
+            2);
 }
 
 TEST_F(ImpulseWave, ASlideThatStaysDryMakesNoWaveAndIsNoFault) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <cmath>
 #include <numbers>
 
@@ -138,19 +140,33 @@ TEST(SlideEntry, ABodyThatTurnsAboutItsPivotIntoTheLake) {
   for (int k = 0; k <= 200; ++k)
     motion.time.push_back(0.04 * k), motion.pitch.push_back(0.2 * 0.04 * k), motion.displacement.push_back({0, 0, 0});
   header.particles.bodies = {motion};
-  const std::string path = (shop / "run.h5").string();
-  RunWriter(path, header).close();
   Case c;
   c.dimension = 2;
   c.bodies.resize(1);
   c.bodies[0].outline = {{1200, 501}, {1220, 501}, {1220, 502}, {1200, 502}};
-  const SlideEntry entry = measure_slide_entry(RunReader(path), c);
+  // In a run whose last surface is at `end`, by a motion that begins at `from`.
+  const auto measured = [&](double end, double from) {
+    header.particles.bodies = {motion};
+    for (double& t : header.particles.bodies[0].time) t += from;
+    const std::string path = (shop / "run.h5").string();
+    std::filesystem::remove(path);
+    RunWriter writer(path, header);
+    if (end >= 0) writer.add_surface(end, {1, 1}, {});
+    writer.close();
+    return measure_slide_entry(RunReader(path), c);
+  };
+  const SlideEntry entry = measured(-1, 0);
   double speed = 0;
   for (int k = 0; k < 20; ++k) speed += 0.2 * std::hypot(k + 0.5, 1.5) / 20;
   EXPECT_EQ(entry.volume, 20);
   EXPECT_NEAR(entry.speed, speed, 1e-3 * speed);
   EXPECT_NEAR(entry.drop, 1.5, 1e-6);
   EXPECT_EQ(entry.ahead[0], 1);
+
+  // What the table tells beyond the run has not been: by 0.5 s it has turned by 0.1 rad, enough for x > 15 m.
+  EXPECT_EQ(measured(0.5, 0).volume, 5);
+  EXPECT_EQ(measured(0.5, -0.25).volume, 10);  // 0.15 rad more or less at the end: x > 10 m
+  EXPECT_EQ(measured(5, -20).volume, 0);       // over before the run began
 }
 
 TEST(SlideEntry, DepthIsTheDeepestThatIsNotTooFarAway) {

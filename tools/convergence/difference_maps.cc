@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "case/dotted_key.hh"
+#include "measure/highest_surface.hh"
 #include "measure/slide_history.hh"
 #include "measure/surface_sampling.hh"
 #include "terrain/geo_output.hh"
@@ -26,11 +27,11 @@ std::vector<float> sampled(const RunHeader& header, const std::vector<float>& ra
   return values;
 }
 
-std::vector<DifferenceMap> maps_of(const RunReader& run, double adps_threshold) {
+std::vector<DifferenceMap> maps_of(const RunReader& run, const Case& c) {
   std::vector<DifferenceMap> maps;
   if (run.has_water_surface())
-    maps.push_back({"max_elevation", "highest water surface", [](const RunReader& r, const SurfaceMap& map) {
-                      return sampled(r.header(), r.maximum("elevation"), map);
+    maps.push_back({"max_elevation", "highest water surface", [=](const RunReader& r, const SurfaceMap& map) {
+                      return sampled(r.header(), highest_surface(r, c), map);
                     }});
   if (run.has_soil_surface())
     maps.push_back({"soil_surface", "soil surface at the end", [](const RunReader& r, const SurfaceMap& map) {
@@ -38,7 +39,7 @@ std::vector<DifferenceMap> maps_of(const RunReader& run, double adps_threshold) 
                     }});
   if (run.header().particles.counts.soil > 0)
     maps.push_back({"thickness", "thickness of the slide at the end", [=](const RunReader& r, const SurfaceMap& map) {
-                      const SlideHistory history(r.header(), r.frame(r.frame_count() - 1), adps_threshold);
+                      const SlideHistory history(r.header(), r.frame(r.frame_count() - 1), c.deposit.adps_threshold);
                       return history.thickness(map);
                     }});
   return maps;
@@ -54,13 +55,13 @@ std::string file_of(const std::string& folder, const std::string& map, const Run
 std::vector<std::string> difference_map_files(const std::string& folder,
                                               const std::vector<std::unique_ptr<RunReader>>& runs) {
   std::vector<std::string> files;
-  for (const DifferenceMap& map : maps_of(*runs.front(), 0))
+  for (const DifferenceMap& map : maps_of(*runs.front(), {}))
     for (std::size_t k = 1; k < runs.size(); ++k) files.push_back(file_of(folder, map.name, *runs[k], *runs.front()));
   return files;
 }
 
 void write_difference_maps(const std::string& folder, const std::vector<std::unique_ptr<RunReader>>& runs,
-                           double adps_threshold, bool overwrite) {
+                           const Case& c, bool overwrite) {
   const RunHeader& coarsest = runs.back()->header();
   // The coarsest map in the local coordinates of another run.
   const auto nodes = [&](const RunReader& run) {
@@ -69,7 +70,7 @@ void write_difference_maps(const std::string& folder, const std::vector<std::uni
     map.y0 += coarsest.particles.origin[1] - run.header().particles.origin[1];
     return map;
   };
-  for (const DifferenceMap& map : maps_of(*runs.front(), adps_threshold)) {
+  for (const DifferenceMap& map : maps_of(*runs.front(), c)) {
     const bool none_is_zero = map.name == "thickness";
     const std::vector<float> finest = map.values(*runs.front(), nodes(*runs.front()));
     for (std::size_t k = 1; k < runs.size(); ++k) {

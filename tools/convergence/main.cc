@@ -181,11 +181,12 @@ int run(const Options& options, const std::string& command) {
 
   const std::string output = !options.output.empty() ? options.output : options.common.json ? "" : "-";
   ToolOutputs results("convergence", command, options.common, options.runs);
-  results.check({output, options.summary});
+  std::vector<std::string> outputs{output, options.summary};
   if (!options.maps.empty()) {
     make_folder(options.maps);
-    results.check_files(difference_map_files(options.maps, runs));
+    for (const std::string& file : difference_map_files(options.maps, runs)) outputs.push_back(file);
   }
+  results.check(outputs);
   results.hash_inputs();
 
   const std::vector<std::string> warnings = warnings_of(runs);
@@ -193,8 +194,7 @@ int run(const Options& options, const std::string& command) {
     for (const std::string& warning : warnings) std::cerr << "convergence: " << warning << "\n";
   const std::vector<Quantity> quantities = quantities_of(runs, c, options.common);
   results.write(output, convergence_table(quantities, spacings));
-  if (!options.maps.empty())
-    write_difference_maps(options.maps, runs, c.deposit.adps_threshold, options.common.overwrite);
+  if (!options.maps.empty()) write_difference_maps(options.maps, runs, c, options.common.overwrite);
   results.summarise(options.summary, summary_json(quantities, spacings, warnings));
   return 0;
 }

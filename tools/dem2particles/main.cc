@@ -14,6 +14,7 @@
 #include "base/check_outputs.hh"
 #include "base/error.hh"
 #include "base/make_rule.hh"
+#include "base/option_checks.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/sweep.hh"
@@ -274,7 +275,7 @@ int main(int argc, char** argv) {
       ->type_name("SWEEP.yaml");
   app.add_option("--rate", options.rate, "Particle-steps a second that run times are estimated with")
       ->type_name("NUMBER")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   add_common_options(app, options.common, library_versions);
   app.footer(
       "Examples:\n  $ dem2particles case.yaml --dry-run\n  $ dem2particles case.yaml -o particles.h5 --set "

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.hh"
+#include "base/option_checks.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "case/dotted_key.hh"
@@ -73,10 +74,11 @@ void add_slices(CsvTable& table, const RunReader& run, const Frame& frame, const
       table.add(section.name, frame.time, p.distance, p.z, std::string(p.soil ? "soil" : "water"), p.speed, p.adps);
 }
 
+/// NaN where none has a value: all of the slide has left.
 double largest(const std::vector<SlideState>& states, double SlideState::*value) {
-  double result = 0;
+  double result = no_value;
   for (const SlideState& s : states)
-    if (s.*value > result) result = s.*value;
+    if (!(s.*value <= result) && !std::isnan(s.*value)) result = s.*value;
   return result;
 }
 
@@ -172,8 +174,9 @@ References chosen_references(const Options& options, const std::vector<Section>&
   return references;
 }
 
+/// `whole`: the case has no section, and a profile along one lies along the whole of a 2-D run.
 std::vector<ComparisonRow> compare_with(const References& references, const ordered_json& summary, const RunReader& run,
-                                        double threshold) {
+                                        double threshold, bool whole) {
   std::vector<ComparisonRow> rows;
   for (const ScalarReference& s : references.scalars) {
     const ordered_json& of_deposit = summary["deposit"];
@@ -192,8 +195,9 @@ std::vector<ComparisonRow> compare_with(const References& references, const orde
     SurfaceProfile surface{{}, profiles[k].bed, profiles[k].soil};
     for (const Station& s : profiles[k].stations)
       surface.distance.push_back(reference.along_section ? s.distance : s.x + header.origin[0]);
-    // Sections lead away from the slide; along a 2-D run the motion tells where the front is.
-    const bool backwards = !reference.along_section && summary["deposit"]["direction_deg"].get<double>() > 180;
+    // Sections of a case lead away from the slide; along all of a 2-D run the motion tells where the front is.
+    const bool backwards =
+        (whole || !reference.along_section) && summary["deposit"]["direction_deg"].get<double>() > 180;
     const auto more = profile_rows(sections[k].name, compare_profiles(surface, reference.distance, reference.elevation,
                                                                       header.dp / 2, backwards ? -1 : 1));
     rows.insert(rows.end(), more.begin(), more.end());
@@ -252,7 +256,7 @@ int run(const Options& options, const std::string& command) {
                   "thickness of the slide at the end", options.common.overwrite);
   ordered_json summary = summary_json(states, history, threshold);
   if (!options.compare.empty()) {
-    const std::vector<ComparisonRow> comparison = compare_with(references, summary, run, threshold);
+    const std::vector<ComparisonRow> comparison = compare_with(references, summary, run, threshold, c.sections.empty());
     results.write(options.comparison_output(), comparison_table(comparison));
     summary["comparison"] = comparison_json(comparison);
   }
@@ -276,7 +280,7 @@ int main(int argc, char** argv) {
   const std::string measured = "What is measured";
   app.add_option("--adps", options.adps, "Accumulated plastic strain above which soil is slide, instead of the case's")
       ->type_name("STRAIN")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero)
       ->group(measured);
   app.add_option("--at", options.at, "Times of the profiles and slices: first, last or seconds (the nearest frame)")
       ->type_name("LIST")

@@ -14,6 +14,7 @@
 #include "base/error.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
+#include "case/dotted_key.hh"
 #include "files/csv_table.hh"
 #include "files/domain.hh"
 #include "gauge_netcdf.hh"
@@ -210,7 +211,8 @@ ordered_json summary_json(const Measurements& m, const ordered_json& parameters)
     summary["sections"].push_back({{"name", s.name},
                                    {"runup_m", s.max_height},
                                    {"runup_elevation_m", s.max_elevation},
-                                   {"time_of_runup_s", s.time_of_max}});
+                                   {"time_of_runup_s", s.time_of_max},
+                                   {"overtopped", !std::isnan(s.overtopped)}});
   if (!std::isnan(m.shore_runup)) summary["shore_runup_m"] = m.shore_runup;
   summary["parameters"] = parameters;
   if (!m.comparison.empty()) summary["comparison"] = comparison_json(m.comparison);
@@ -365,16 +367,18 @@ int run(const Options& options, const std::string& command) {
   std::vector<std::string> inputs{options.run, options.case_file};
   inputs.insert(inputs.end(), options.compare.begin(), options.compare.end());
   ToolOutputs results("gauges", command, options.common, inputs);
-  results.check(outputs);
   if (!options.maps.empty()) {
     make_folder(options.maps);
-    results.check_files(wave_map_files(options.maps, options.thresholds));
-    results.check_files(snapshot_files(options.maps, run, snapshots));
+    for (const auto& files :
+         {wave_map_files(options.maps, options.thresholds), snapshot_files(options.maps, run, snapshots)})
+      outputs.insert(outputs.end(), files.begin(), files.end());
   }
+  results.check(outputs);
   results.hash_inputs();
 
-  RunupRecorder runup(header, has_water ? c.sections : std::vector<Section>{});
   const std::vector<double> earliest = earliest_arrival(run, c);
+  RunupRecorder runup(header, has_water ? c.sections : std::vector<Section>{}, earliest);
+  HighestSurface highest(header, earliest);
   std::vector<double> mapped{m.thresholds.front()};
   mapped.insert(mapped.end(), options.thresholds.begin(), options.thresholds.end());
   ArrivalMap arrivals(header, options.maps.empty() ? std::vector<double>{} : mapped, earliest);
@@ -386,6 +390,7 @@ int run(const Options& options, const std::string& command) {
       const std::vector<float> water = has_water ? run.water_surface(k) : std::vector<float>{};
       gauges.add(times[k], water, run.has_soil_surface() ? run.soil_surface(k) : std::vector<float>{});
       if (has_water) runup.add(times[k], water), arrivals.add(times[k], water);
+      if (!options.maps.empty()) highest.add(times[k], water);
       if (k == 0) first_water = water;
       progress.update(double(k + 1) / double(times.size()));
     }
@@ -402,6 +407,9 @@ int run(const Options& options, const std::string& command) {
       std::cerr << "gauges: section " << s.name
                 << " has no opposite bank (it does not run from the lake to dry land above "
                 << "its level) let it end there\n";
+    if (!std::isnan(s.overtopped) && !options.common.quiet)
+      std::cerr << "gauges: water passes the end of section " << s.name << " (from " << number_text(s.overtopped, 4)
+                << " s on: its run-up is a lower bound) let it end higher\n";
   }
 
   for (std::size_t g = 0; g < header.pressure_gauges.size(); ++g) {
@@ -421,8 +429,7 @@ int run(const Options& options, const std::string& command) {
     write_gauge_netcdf(options.netcdf, particles, m.gauges, c.name, provenance.enabled ? provenance.to_json() : "",
                        options.common.overwrite);
   if (!options.maps.empty())
-    m.shore_runup =
-        write_wave_maps(options.maps, run, first_water, arrivals, m.gauges, m.peaks, options.common.overwrite);
+    m.shore_runup = write_wave_maps(options.maps, run, highest, arrivals, m.gauges, m.peaks, options.common.overwrite);
   write_snapshots(options.maps, run, snapshots, options.common.overwrite);
   results.summarise(options.summary,
                     summary_json(m, parameters_json(c, particles, deepest_water(header, first_water))));
@@ -437,10 +444,11 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Wave gauges, run-up and wave maps of a run. Elevations are in the case's vertical datum, heights above its "
       "still\n"
-      "water level; a gauge that starts on soil follows the soil surface, its heights are changes since the start.",
+      "water level; a gauge that starts on soil follows the soil surface, its heights are changes since the start.\n"
+      "What a surface does before anything can have come from the slide counts in no peak, arrival, run-up or map.",
       "gauges");
   add_measuring_options(
-      app, options, "gauges and sections", "Gauges, run-up and comparison as JSON",
+      app, options, "gauges, sections and the arrival threshold", "Gauges, run-up and comparison as JSON",
       "Measured series (CSV): time_s (or t_s) and a column of heights above still water level a gauge, or of run-up a "
       "section, named as in the case; on soil changes since the start; of a pressure gauge Pa. May be repeated");
   app.add_flag("--compare-elevations", options.compare_elevations,

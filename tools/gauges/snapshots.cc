@@ -1,8 +1,10 @@
 #include "snapshots.hh"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
+#include <limits>
+#include <string>
 
 #include "measure/column_surface.hh"
 #include "terrain/geo_output.hh"
@@ -16,13 +18,25 @@ std::string text_of(const char* pattern, double value) {
   return text;
 }
 
-/// "12s" of each frame.
+/// "12s" of each frame, with as many decimals as the frames of the run are apart, whichever of them are asked for.
 std::vector<std::string> time_names(const RunReader& run, const std::vector<std::size_t>& frames) {
-  std::set<long> seconds;
-  for (std::size_t k : frames) seconds.insert(std::lround(run.frame_time(k)));
-  const char* pattern = seconds.size() == frames.size() ? "%.0fs" : "%.3fs";
+  const auto named = [&](std::size_t k, int decimals) {
+    char text[60];
+    std::snprintf(text, sizeof text, "%.*fs", decimals, run.frame_time(k));
+    return std::string(text);
+  };
+  double interval = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < run.frame_count(); ++k)
+    interval = std::min(interval, run.frame_time(k) - run.frame_time(k - 1));
+  const auto exact = [&](int decimals) {
+    for (std::size_t k = 0; k < run.frame_count(); ++k)
+      if (!(std::abs(std::stod(named(k, decimals)) - run.frame_time(k)) <= 0.1 * interval)) return false;
+    return true;
+  };
+  int decimals = 0;
+  while (decimals < 9 && !exact(decimals)) ++decimals;
   std::vector<std::string> names;
-  for (std::size_t k : frames) names.push_back(text_of(pattern, run.frame_time(k)));
+  for (std::size_t k : frames) names.push_back(named(k, decimals));
   return names;
 }
 

@@ -53,7 +53,7 @@ std::vector<std::string> wave_map_files(const std::string& folder, const std::ve
   return files;
 }
 
-double write_wave_maps(const std::string& folder, const RunReader& run, const std::vector<float>& first_water,
+double write_wave_maps(const std::string& folder, const RunReader& run, const HighestSurface& highest,
                        const ArrivalMap& arrivals, const std::vector<GaugeSeries>& gauges,
                        const std::vector<GaugePeaks>& peaks, bool overwrite) {
   const RunHeader& header = run.header();
@@ -65,7 +65,10 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
     write_geotiff(in_folder(folder, name), grid, values, where, unit, description, overwrite);
   };
 
-  const std::vector<float> elevation = run.maximum("elevation"), depth = run.maximum("depth");
+  const std::vector<float>& elevation = highest.elevation();
+  std::vector<float> depth = run.maximum("depth");
+  for (std::size_t n = 0; n < depth.size(); ++n)
+    if (std::isnan(elevation[n])) depth[n] = float(no_value);  // wet before the wave alone
   std::vector<float> in_datum = elevation;
   for (float& z : in_datum) z = float(z + particles.origin[2]);
   std::vector<float> ground;
@@ -81,7 +84,7 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
     raster(t == 0 ? "arrival.tif" : arrival_name(arrivals.thresholds()[t]), arrivals.arrival(t), "s", text);
   }
 
-  const std::vector<uint8_t> lake = lake_at_rest(header, first_water);
+  const std::vector<uint8_t>& lake = highest.lake();
   const std::vector<uint8_t> hazard = hazard_classes(header, lake, elevation, depth);
   raster("hazard.tif", std::vector<float>(hazard.begin(), hazard.end()), "class",
          "1 below 1 m, 2 from 1 m to 3 m, 3 above 3 m: wave height in the lake, flow depth on land");
@@ -118,11 +121,11 @@ double write_wave_maps(const std::string& folder, const RunReader& run, const st
   package.add_polygons("hazard", grid, hazard, {"below 1 m", "1 m to 3 m", "above 3 m"});
   package.commit();
 
-  double highest = no_value;
+  double top = no_value;
   for (const auto& line : runup)
     for (const ShorePoint& p : line)
-      if (!std::isnan(p.runup) && !(p.runup <= highest)) highest = p.runup;
-  return highest;
+      if (!std::isnan(p.runup) && !(p.runup <= top)) top = p.runup;
+  return top;
 }
 
 }  // namespace lgiw

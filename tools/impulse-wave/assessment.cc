@@ -31,9 +31,8 @@ Polar seen_from(const Assessment& a, double x, double y) {
 struct MeasuredWave {
   Extreme crest, trough, second_crest, highest;
 };
-MeasuredWave measured_wave(const GaugeSeries& s, double threshold) {
-  Series heights{s.time, s.elevation};
-  for (double& z : heights.value) z -= s.reference;
+MeasuredWave measured_wave(const GaugeSeries& s, double threshold, double earliest) {
+  const Series heights = heights_of_wave(s, earliest);
   const SeriesFeatures features = features_of(heights, threshold);
   MeasuredWave wave{features.crest, {no_value, no_value}, {no_value, no_value}, features.highest};
   if (std::isnan(wave.crest.time)) return wave;
@@ -43,19 +42,19 @@ MeasuredWave measured_wave(const GaugeSeries& s, double threshold) {
   return wave;
 }
 
-void add_gauges(Assessment& a, const RunReader& run, const Case& c, const GaugeRecorder& gauges) {
+void add_gauges(Assessment& a, const RunReader& run, const Case& c, const GaugeRecorder& gauges,
+                const std::vector<double>& earliest) {
   const double threshold = arrival_threshold(c, run.header().particles.dp);
-  const std::vector<double> earliest = earliest_arrival(run, c);
   const auto& origin = run.header().particles.origin;
   for (const GaugeSeries& s : gauges.series()) {
     if (s.surface != GaugeSurface::water || s.initially_dry) continue;
     const Polar seen = seen_from(a, s.gauge.x, s.gauge.y);
     Place place = wave_place(a, "gauge", s.gauge.name, seen.distance, seen.angle, a.entry->start);
     place.x = s.gauge.x, place.y = s.gauge.y;
-    const MeasuredWave wave = measured_wave(s, threshold);
+    const double first = earliest_near(run.header().map, earliest, s.gauge.x - origin[0], s.gauge.y - origin[1]);
+    const MeasuredWave wave = measured_wave(s, threshold, first);
     place.largest_crest = wave.highest.value, place.time_of_largest = wave.highest.time;
-    place.arrival = gauge_arrival(
-        s, threshold, earliest_near(run.header().map, earliest, s.gauge.x - origin[0], s.gauge.y - origin[1]));
+    place.arrival = gauge_arrival(s, threshold, first);
     const std::map<std::string, double> simulated{{"first_crest_m", wave.crest.value},
                                                   {"first_trough_m", -wave.trough.value},
                                                   {"second_crest_m", wave.second_crest.value},
@@ -190,8 +189,9 @@ void add_run_places(Assessment& a, const RunReader& run, const Case& c) {
   std::vector<Section> sections = c.sections;
   if (sections.empty()) sections.push_back(axis_section(*a.entry, header));
   if (sections.back().points.size() < 2) sections.pop_back();
+  const std::vector<double> earliest = earliest_arrival(run, c);
   GaugeRecorder gauges(header, wave_gauges);
-  RunupRecorder runup(header, sections);
+  RunupRecorder runup(header, sections, earliest);
   std::vector<float> first_water;
   for (std::size_t k = 0; k < run.surface_times().size(); ++k) {
     const std::vector<float> water = run.water_surface(k);
@@ -200,7 +200,7 @@ void add_run_places(Assessment& a, const RunReader& run, const Case& c) {
     runup.add(time, water);
     if (k == 0) first_water = water;
   }
-  add_gauges(a, run, c, gauges);
+  add_gauges(a, run, c, gauges, earliest);
   add_banks(a, run, sections, runup, first_water);
 }
 

@@ -7,6 +7,7 @@
 #include "assessment.hh"
 #include "base/atomic_file.hh"
 #include "base/error.hh"
+#include "base/option_checks.hh"
 #include "base/tool_main.hh"
 #include "case/dotted_key.hh"
 #include "measure/surface_sampling.hh"
@@ -103,7 +104,10 @@ Assessment assess(const Options& options, const RunReader* run, const Case& c) {
     a.impact.*n.target = n.value;
     a.given.push_back(n.name);
   }
-  if (run && a.channel && !std::isnan(options.width)) a.per_metre = false;
+  if (run && a.channel && !std::isnan(options.width)) {
+    a.per_metre = false;
+    if (std::isnan(options.volume)) a.impact.volume *= options.width;  // was measured per metre
+  }
   if (!std::isnan(options.water_density)) a.impact.water_density = options.water_density;
   if (!std::isnan(options.drop)) a.drop = options.drop, a.travel_slope = a.impact.slope;
   if (!std::isnan(options.friction_angle)) a.friction_angle = options.friction_angle;
@@ -186,34 +190,36 @@ int main(int argc, char** argv) {
   const std::string slide = "The slide at impact";
   const auto number = [&](const std::string& name, double& value, const std::string& what, const std::string& unit,
                           const std::string& group) {
-    return app.add_option(name, value, what)->type_name(unit)->check(CLI::PositiveNumber)->group(group);
+    return app.add_option(name, value, what)->type_name(unit)->check(above_zero)->group(group);
   };
   number("--speed", options.speed, "Speed of the slide at impact", "M/S", slide);
   number("--thickness", options.thickness, "Largest thickness, across the slope", "M", slide);
   number("--width", options.width, "Width; with --channel 1 m, and the volume is per metre", "M", slide);
   number("--volume", options.volume, "Bulk volume", "M3", slide);
   number("--density", options.density, "Bulk density", "KG/M3", slide);
-  number("--slope", options.slope, "Angle of impact below the horizontal", "DEG", slide)->check(CLI::Range(0.0, 90.0));
+  number("--slope", options.slope, "Angle of impact below the horizontal", "DEG", slide)->check(between(0.0, 90.0));
   number("--depth", options.depth, "Still water depth before the slide", "M", slide);
   number("--water-density", options.water_density, "Density of the water, otherwise 1000 or the run's", "KG/M3", slide);
   number("--drop", options.drop, "Without --speed: how far the slide's centre sinks to the water (Koerner)", "M",
          slide);
   number("--friction-angle", options.friction_angle, "with this angle of dynamic friction", "DEG", slide)
-      ->check(CLI::Range(0.0, 89.0));
+      ->check(between(0.0, 89.0));
   const std::string where = "Where";
   app.add_flag("--channel", options.channel, "2-D: the slide fills the width of a channel")->group(where);
   app.add_option("--distance", options.distances, "Distances from the impact, e.g. 500,1000")
       ->type_name("M,...")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero)
       ->group(where);
   app.add_option("--angle", options.angle, "of these places off the slide's axis")
       ->type_name("DEG")
-      ->check(CLI::Range(-180.0, 180.0))
+      ->check(between(-180.0, 180.0))
+      ->needs("--distance")
+      ->excludes("--channel")
       ->group(where);
   auto* bank = number("--bank-slope", options.bank_slope, "There is a bank: its slope", "DEG", where)
-                   ->check(CLI::Range(0.0, 90.0))
+                   ->check(between(0.0, 90.0))
                    ->needs("--distance");
   number("--bank-depth", options.bank_depth, "Still water depth before the bank, otherwise --depth", "M", where)
       ->needs(bank);

@@ -7,6 +7,7 @@
 #include "base/atomic_file.hh"
 #include "base/check_outputs.hh"
 #include "base/error.hh"
+#include "base/option_checks.hh"
 #include "base/thread_waiting.hh"
 #include "base/tool_main.hh"
 #include "files/csv_table.hh"
@@ -128,7 +129,7 @@ int main(int argc, char** argv) {
   app.add_flag("--dry-run", o.dry_run, "Print particle counts, time step, steps and run time as JSON; start nothing");
   app.add_option("--rate", o.rate, "Particle-steps a second that --dry-run assumes")
       ->type_name("NUMBER")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   app.add_option("--summary", o.summary, "Summary as JSON")->type_name("FILE");
   app.add_option("--diagnostics", o.diagnostics,
                  "Table of energies, momentum, speeds and time steps against time (CSV; - is stdout)")
