@@ -67,6 +67,9 @@ GaugePeaks gauge_peaks(const GaugeSeries& series, const std::vector<double>& thr
       peaks.max_height = series.elevation[k] - series.reference;
       peaks.time_of_max = series.time[k];
     }
+  // The water is at rest until something comes.
+  const bool at_rest = series.surface == GaugeSurface::water && !series.initially_dry && !series.time.empty();
+  if (at_rest && !(earliest <= series.time.back())) peaks.max_elevation = series.reference, peaks.max_height = 0;
   const Series heights = heights_of_wave(series, earliest);
 
   const bool water = series.surface == GaugeSurface::water;

@@ -38,7 +38,8 @@ class GaugeRecorder {
 };
 
 struct GaugePeaks {
-  double max_elevation = 0, max_height = 0, time_of_max = 0;  // height above the reference; NaN when never wet
+  /// Height above the reference; NaN when never wet. 0 in water that nothing has reached by the end, without a time.
+  double max_elevation = 0, max_height = 0, time_of_max = 0;
   /// Water: lowest height in the first stretch below still level that goes deeper than the first threshold. Soil:
   /// lowest height of all. NaN where there is none. Nothing before the wave can be there counts.
   double first_trough = 0, time_of_trough = 0;

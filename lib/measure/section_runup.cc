@@ -57,7 +57,13 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     Line& line = lines_[l];
     SectionRunup& section = sections_[l];
-    if (section.time.empty()) find_bank(line, section, water);
+    if (section.time.empty()) {
+      find_bank(line, section, water);
+      if (section.has_bank) {
+        section.max_elevation = header_.particles.still_water_level + header_.particles.origin[2];
+        section.max_height = 0;
+      }
+    }
     double reached = no_value;
     bool by_wave = false;
     if (section.has_bank) {
@@ -81,7 +87,7 @@ void RunupRecorder::add(double time, const std::vector<float>& water) {
     }
     section.time.push_back(time);
     section.elevation.push_back(reached);
-    if (by_wave && !std::isnan(reached) && !(reached <= section.max_elevation)) {
+    if (by_wave && !std::isnan(reached) && (std::isnan(section.time_of_max) || !(reached <= section.max_elevation))) {
       section.max_elevation = reached;
       section.max_height = reached - header_.particles.origin[2] - header_.particles.still_water_level;
       section.time_of_max = time;

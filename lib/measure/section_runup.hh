@@ -15,7 +15,7 @@ struct SectionRunup {
   bool has_bank = false;          // whether the line leaves the lake at its far end
   std::vector<double> time;       // s
   std::vector<double> elevation;  // highest bed reached by water on the opposite bank, case datum; NaN without a bank
-  /// Height above still water level; NaN without a bank, and where no wave can have reached it.
+  /// Height above still water level; NaN without a bank. 0 where nothing has reached the bank as yet, without a time.
   double max_elevation = 0, max_height = 0, time_of_max = 0;
   double overtopped = 0;  // s: when water first stands at the line's end, whence run-up is a lower bound; NaN: never
 };

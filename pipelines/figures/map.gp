@@ -1,7 +1,7 @@
 # Map: hillshade, largest wave height, final thickness of the slide, gauges, section lines.
 load "common.gp"
 load "ground.gp"
-stats work."/max_elevation.xyz" using ($3 - level) nooutput; top = STATS_max
+stats work."/max_elevation.xyz" using ($3 - level) nooutput; top = STATS_max > 0 ? STATS_max : 1  # nothing has arrived
 slide = work."/thickness.xyz"; gauges = out."/peaks.csv"; profiles = out."/profiles.csv"
 has_slide = present(slide); has_gauges = present(gauges); has_sections = present(profiles)
 gauge_labels = has_gauges ? gauge_points(gauges) : "< true"

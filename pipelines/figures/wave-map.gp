@@ -2,7 +2,7 @@
 # inundation, gauges, and the highest run-up of each shore.
 load "common.gp"
 load "ground.gp"
-stats work."/max_elevation.xyz" using ($3 - level) nooutput; top = STATS_max
+stats work."/max_elevation.xyz" using ($3 - level) nooutput; top = STATS_max > 0 ? STATS_max : 1  # nothing has arrived
 gauges = out."/peaks.csv"; isochrones = work."/isochrones.txt"; shores = work."/shores.txt"
 has_gauges = present(gauges); has_isochrones = present(isochrones); has_shores = present(shores)
 gauge_labels = has_gauges ? gauge_points(gauges) : "< true"

@@ -176,7 +176,8 @@ TEST(Gauges, WhatASurfaceDoesBeforeTheFastestWaveIsNoCrestAndNoTrough) {
   EXPECT_EQ(peaks.first_trough, -1);
   EXPECT_EQ(peaks.time_of_trough, 6);
   for (const double never : {8.0, infinite}) {
-    EXPECT_TRUE(std::isnan(gauge_peaks(series, {0.5}, never).max_height));
+    EXPECT_EQ(gauge_peaks(series, {0.5}, never).max_height, 0) << "at rest until then";
+    EXPECT_TRUE(std::isnan(gauge_peaks(series, {0.5}, never).time_of_max));
     EXPECT_TRUE(std::isnan(gauge_peaks(series, {0.5}, never).first_trough));
   }
 }
@@ -256,7 +257,8 @@ TEST(Runup, BeforeTheFastestWaveIsNone) {
     EXPECT_NEAR(s.elevation[24], 514, 1e-5);
     const double highest = earliest == 0 ? 4 : 3;
     if (earliest > 30) {
-      EXPECT_TRUE(std::isnan(s.max_height));
+      EXPECT_EQ(s.max_height, 0) << "at rest until then";
+      EXPECT_TRUE(std::isnan(s.time_of_max));
     } else {
       EXPECT_NEAR(s.max_height, highest, 1e-5);
     }

@@ -91,7 +91,7 @@ class Report : public testing::Test {
 
 TEST_F(Report, OfABowlHoldsItsNumbersAndEscapesWhatItIsTold) {
   write_case("# A synthetic bowl; 1 < 2 & <script>alert(\"x\")</script>.\n" +
-             replaced(replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 4\n"), "friction_angle: 20",
+             replaced(replaced(replaced(bowl_case, "end_time: 1\n", "end_time: 15\n"), "friction_angle: 20",
                                "friction_angle: 5"),
                       "- file: dem.asc", "- {file: dem.asc, attribution: \"Survey <b> & Co, CC BY 4.0\"}"));
   make("THRESHOLDS=1");

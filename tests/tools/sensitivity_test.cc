@@ -21,7 +21,7 @@ slide:
   bodies:
     - [[-0.15, 0.15], [-0.15, 0.25], [-0.25, 0.25]]
 soil: {friction_angle: 25, young_modulus: 1e6, density: 1900}
-output: {end_time: 0.4, frame_interval: 0.1}
+output: {end_time: 0.8, frame_interval: 0.1}
 gauges:
   - {name: near, x: 0.1}
   - {name: far, x: 0.35}
@@ -75,7 +75,8 @@ TEST_F(Sensitivity, OfAFlumeVariesAngleLevelAndSpacing) {
       ASSERT_TRUE(row[source].is_number()) << row;
       if (row[source].get<double>() > largest) largest = row[source].get<double>(), dominates = source;
     }
-    EXPECT_EQ(row["dominates"], dominates) << row;
+    // One of those that are alike, where two are: both may add a particle to a volume.
+    EXPECT_EQ(row[row["dominates"].get<std::string>()], largest) << row << dominates;
     EXPECT_GT(largest, 0) << row;
     EXPECT_EQ(row["basis"], "spread") << row;
     if (name != "max_wave_height_m") {
