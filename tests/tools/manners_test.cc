@@ -68,6 +68,17 @@ TEST_P(ParallelTool, ThreadsWaitBrieflyUnlessTheEnvironmentSaysHow) {
   EXPECT_EQ(active.err.find("GOMP_SPINCOUNT"), active.err.rfind("GOMP_SPINCOUNT")) << active.err;  // not started anew
 }
 
+/// A program started by one whose threads are bound has that one's core alone.
+TEST_P(ParallelTool, BoundThreadsKeepTheirCores) {
+  const std::string all = "env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY OMP_DISPLAY_ENV=verbose ";
+  for (const char* binding : {"OMP_PROC_BIND=true", "OMP_PLACES=cores", "GOMP_CPU_AFFINITY=0-1"}) {
+    const Outcome bound = workshop_.run(all + binding + " " + GetParam() + " --version");
+    EXPECT_EQ(bound.status, 0);
+    EXPECT_NE(bound.err.find("GOMP_SPINCOUNT"), std::string::npos) << bound.err;
+    EXPECT_EQ(bound.err.find("GOMP_SPINCOUNT"), bound.err.rfind("GOMP_SPINCOUNT")) << binding << "\n" << bound.err;
+  }
+}
+
 /// What top shows and killall looks for. The tool waits for its case: when that can be written, it has been started
 /// anew.
 TEST_F(Manners, AToolStartedAnewKeepsItsName) {
