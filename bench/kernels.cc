@@ -137,13 +137,13 @@ struct Surroundings {
     for (int k = 0; k < D; ++k) box.low[k] = -1.25f * dp, box.high[k] = 1.25f * dp;
     box.reach2 = 4 * h * h;
   }
-  /// A row of the lattice at a time, as rows of cells are.
+  /// In rows of the lattice, as rows of cells are.
   int look() {
-    int near = 0;
-    for (int row = 0; row < across * across; ++row)
-      near = copy_near<LGIW_LANES>(box, fields, from, row * across, (row + 1) * across, to, near);
-    return near;
+    ranges.clear();
+    for (int row = 0; row < across * across; ++row) ranges.push_back({row * across, (row + 1) * across});
+    return copy_near<LGIW_LANES>(box, fields, from, ranges, to, 0);
   }
+  Ranges ranges;
 };
 
 void copies_of_a_tile(benchmark::State& state) {

@@ -6,6 +6,7 @@
 #                                            in turn: scaling.json
 #   make -C pipelines bench-bars             the two runs of Huang et al. 2023 against their bars of wall time: bars.json
 #   make -C pipelines bench-kernels          pair laws, soil, copies and sort one by one (Google Benchmark): kernels.json
+#   make -C pipelines bench-warps            what the threads of a CUDA warp wait for, counted without a device
 #
 # Compare ratios of one call, not figures of different days: machines differ and are shared. SCENES="water-3d soil-3d" takes
 # some of them; SPACING=0.5 makes them all finer, 8 times the particles in 3-D and 4 times in 2-D. BENCH_FLAGS go to lgiw-run.
@@ -105,3 +106,11 @@ ifndef BIN
 	@cd $(root) && cmake --preset release >/dev/null && cmake --build $(build) --target lgiw-kernels
 endif
 	@$(bin)/lgiw-kernels --benchmark_out=$(bench_out)/kernels.json --benchmark_out_format=json $(KERNELS)
+
+# --- Warps -----------------------------------------------------------------------------------------------------------
+.PHONY: bench-warps
+bench-warps: $(if $(BIN),,packages)
+ifndef BIN
+	@cd $(root) && cmake --preset release >/dev/null && cmake --build $(build) --target lgiw-warps
+endif
+	@$(bin)/lgiw-warps

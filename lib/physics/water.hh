@@ -41,9 +41,9 @@ struct WaterContinuity {
   T diffusion;                // 2 delta h c_w, m2/s; 0 between unlike particles
   Vec<T, D> static_gradient;  // rho0 g / c_w^2: gradient of density at rest
 
-  /// r = r_i - r_j, v = v_i - v_j, f = W'/r, e the excess densities, rho_j in kg/m3.
-  LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f, T e_i, T e_j, T rho_j) const {
-    return mass * f * (dot(v, r) - diffusion * (e_j - e_i + dot(static_gradient, r)) / rho_j);
+  /// r = r_i - r_j, v = v_i - v_j, f = W'/r, e the excess densities, inverse_j = 1/rho_j in m3/kg.
+  LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f, T e_i, T e_j, T inverse_j) const {
+    return mass * f * (dot(v, r) - diffusion * (e_j - e_i + dot(static_gradient, r)) * inverse_j);
   }
   /// Without diffusion.
   LGIW_FN T operator()(const Vec<T, D>& r, const Vec<T, D>& v, T f) const { return mass * f * dot(v, r); }

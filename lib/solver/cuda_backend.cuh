@@ -5,12 +5,14 @@
 #include <cub/device/device_radix_sort.cuh>
 
 #include <chrono>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "base/error.hh"
 #include "solver/backend_array.hh"
 #include "solver/passes.hh"
+#include "solver/rearrangement.hh"
 
 namespace lgiw {
 
@@ -52,10 +54,10 @@ __global__ void run_limits(int n, F f, Limits<T>* limits) {
     raise(&limits->mu, mine.mu);
   }
 }
-template <class T>
-__global__ void gather_kernel(int n, T* to, const T* from, const int* order) {
+template <class To, class From>
+__global__ void rearrange_kernel(int n, To* to, const From* from, const int* order) {
   const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
-  if (i < n) to[i] = from[order[i]];
+  if (i < n) to[i] = To(from[order ? order[i] : i]);
 }
 static __global__ void iota_kernel(int n, int* to) {
   const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
@@ -66,10 +68,12 @@ struct CudaBackend {
   static constexpr bool on_host = false;
   // The host looks at the clock of the run only so often; steps queued beyond the target change nothing (Pass::idle).
   static constexpr int steps_per_check = 16;
-  static constexpr int block = 128;
+  static constexpr int block = CudaDevice::block;
 
-  /// Width of the cells: that of the kernel's support, so that 3 rows of 3 hold all neighbours.
-  static double cell_width(double h, int) { return 2 * h * (1 + 1e-6); }
+  template <class T, int D>
+  static Grid<T, D> grid(const double* low, const double* high, double h, double particles) {
+    return Grid<T, D>::of_device(low, high, h, particles);
+  }
 
   struct Memory {
     static void* take(std::size_t bytes) {
@@ -143,17 +147,24 @@ struct CudaBackend {
     if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
     check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, keys, orders, n, 0, bits), "sort");
     take_back(key, keys.Current()), take_back(order, orders.Current());
-    for_each(cells + 1, CellStart{key.data(), n, start.data()});
+    for_each(CellStart::runs(cells), CellStart{key.data(), n, cells, start.data()});
   }
-  template <class T>
-  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
-    const int n = int(from.size());
+  /// Carries out moves of n values each, those that gather by `order`.
+  void rearrange(std::size_t n, const int* order, const std::vector<Rearrangement>& moves) {
     if (n == 0) return;
-    gather_kernel<<<blocks(n), block>>>(n, to.data(), from.data(), order.data());
-    launched("sort");
+    for (const Rearrangement& move : moves) {
+      move.with_types([&](auto* to, const auto* from) {
+        rearrange_kernel<<<blocks(int(n)), block>>>(int(n), to, from, move.gathers() ? order : nullptr);
+      });
+      launched("sort");
+    }
   }
-  /// Phases are timed by what the host waits for: with queued launches the shares are those of launching.
-  double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+  /// Phases are timed by what the host waits for: with queued launches the shares are those of launching, unless the
+  /// environment has LGIW_TIME_PHASES, which lets the host wait for each phase and the device for the host.
+  double now() {
+    if (waits_for_phases_) wait();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
   void wait() const { check_cuda(cudaDeviceSynchronize(), "a step"); }
   std::string name() const {
     cudaDeviceProp p;
@@ -173,6 +184,7 @@ struct CudaBackend {
   }
 
   Array<unsigned char> work_;
+  bool waits_for_phases_ = std::getenv("LGIW_TIME_PHASES") != nullptr;
 };
 
 }  // namespace lgiw

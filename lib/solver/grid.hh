@@ -1,7 +1,6 @@
 // The cell grid that finds neighbours. Cells are numbered along the shortest side of the domain first and along the
 // longest last: a row of them is a contiguous range of the particles of a phase, sorted by cell, and neighbours lie
-// close to each other in memory. Where cells are as wide as the kernel's support, the neighbours of a particle lie in
-// 3 (2-D) or 9 (3-D) rows of three.
+// close to each other in memory.
 #pragma once
 
 #include <utility>
@@ -10,24 +9,28 @@
 
 namespace lgiw {
 
+/// How far to look for neighbours, in supports of the kernel: rates are taken where particles were half a step ago, so
+/// that pairs that have just left the support still count.
+constexpr double reach_in_supports = 1.005;
+
 template <class T, int D>
 struct Grid {
-  static constexpr int rows = D == 2 ? 3 : 9;
   double low[D];
   double inverse_width;
   int n[D];
   int order[D], stride[D];  // axes from the first to the last numbered; cells between neighbours along each axis
   int cells;                // the product of n; also the key of particles that have left the domain
+  int margin;               // no particle lies in so many cells along the edges: those of a row
 
   Grid() = default;
-  /// Covers the box from `low_corner` to `high_corner` with two cells to spare on each side, so that the neighbouring
+  /// Covers the box from `low_corner` to `high_corner` with cells_margin + 1 cells to spare on each side, so that the
   /// rows of any particle, walls included, lie inside the grid.
-  Grid(const double* low_corner, const double* high_corner, double width) {
+  Grid(const double* low_corner, const double* high_corner, double width, int cells_margin = 1) : margin(cells_margin) {
     inverse_width = 1 / width;
     double total = 1;
     for (int k = 0; k < D; ++k) {
-      low[k] = low_corner[k] - 2 * width;
-      n[k] = int(std::ceil((high_corner[k] - low_corner[k]) / width)) + 4;
+      low[k] = low_corner[k] - (margin + 1) * width;
+      n[k] = int(std::ceil((high_corner[k] - low_corner[k]) / width)) + 2 * (margin + 1);
       total *= n[k];
     }
     cells = total < 2.0e9 ? int(total) : -1;
@@ -39,7 +42,7 @@ struct Grid {
 
   LGIW_FN int coordinate(double x, int k) const {
     const int c = int((x - low[k]) * inverse_width);
-    return c < 1 ? 1 : (c > n[k] - 2 ? n[k] - 2 : c);
+    return c < margin ? margin : (c > n[k] - 1 - margin ? n[k] - 1 - margin : c);
   }
   template <class P>
   LGIW_FN int cell(const Vec<P, D>& x) const {
@@ -47,31 +50,52 @@ struct Grid {
     for (int k = 0; k < D; ++k) c += coordinate(double(x[k]), k) * stride[k];
     return c;
   }
-  /// Particles [begin, end) in the k-th row of three cells around `cell`; `start` has cells + 1 entries.
+  /// The grid of a device, whose passes look through all cells within reach. Cells of half the reach have fewer
+  /// candidates than cells as wide as the reach, by a third (bench/warp_count.cc), but there are eight times as many:
+  /// not where a domain is so empty that they would outnumber the particles by more than `most_cells_a_particle`.
+  static Grid of_device(const double* low_corner, const double* high_corner, double h, double particles) {
+    const double reach = 2 * h * reach_in_supports * (1 + 1e-6);
+    const Grid fine(low_corner, high_corner, reach / 2, 2);
+    if (fine.cells > 0 && fine.cells <= most_cells_a_particle * particles + 1e5) return fine;
+    return Grid(low_corner, high_corner, reach, 1);
+  }
+  static constexpr double most_cells_a_particle = 16;  // 64 bytes a phase
+
+  /// Rows of 2 margin + 1 cells around a cell.
+  LGIW_FN int rows() const { return D == 2 ? 2 * margin + 1 : (2 * margin + 1) * (2 * margin + 1); }
+  /// Particles [begin, end) in the k-th of them; `start` has cells + 1 entries.
   LGIW_FN void row(const int* start, int cell, int k, int& begin, int& end) const {
-    const int c = cell + (k % 3 - 1) * stride[order[1]] + (D == 2 ? 0 : (k / 3 - 1) * stride[order[D - 1]]);
-    begin = start[c - 1];
-    end = start[c + 2];
+    const int side = 2 * margin + 1;
+    const int c =
+        cell + (k % side - margin) * stride[order[1]] + (D == 2 ? 0 : (k / side - margin) * stride[order[D - 1]]);
+    begin = start[c - margin];
+    end = start[c + margin + 1];
   }
 };
 
-/// Writes start[c], the index of the first of n sorted keys that is not less than c, by bisection: cells + 1 threads
-/// need nothing of each other, however many empty cells lie between two particles, and neighbouring threads read the
-/// same keys.
+/// Writes start[c], the index of the first of n sorted keys that is not less than c, for `run` cells c from run * k on:
+/// by bisection for the first, then one after the other. Threads need nothing of each other, however many empty cells
+/// lie between two particles.
 struct CellStart {
+  static constexpr int run = 32;
   const int* key;
-  int n;
+  int n, cells;
   int* start;
-  LGIW_FN void operator()(int c) const {
+  /// How many there are.
+  static int runs(int cells) { return cells / run + 1; }
+  LGIW_FN void operator()(int k) const {
     int first = 0, count = n;
     while (count > 0) {
       const int half = count / 2;
-      if (key[first + half] < c)
+      if (key[first + half] < run * k)
         first += half + 1, count -= half + 1;
       else
         count = half;
     }
-    start[c] = first;
+    for (int c = run * k; c < run * (k + 1) && c <= cells; ++c) {
+      while (first < n && key[first] < c) ++first;
+      start[c] = first;
+    }
   }
 };
 

@@ -14,6 +14,8 @@
 #include <immintrin.h>
 #endif
 
+#include "physics/platform.hh"
+
 namespace lgiw {
 
 /// Part of Traits. tiles: the passes find copies of their neighbours, made for a tile of particles at a time
@@ -25,6 +27,18 @@ struct Cpu {
 };
 struct CudaDevice {
   static constexpr bool tiles = false;
+  static constexpr int block = 128;  // threads
+  /// Particles that a thread finds before it computes them (Pass::for_each_near): 16 KiB of shared memory a block.
+  static constexpr int list = 32;
+  /// True if it is for any of the threads that run side by side. What follows from it must be right for each of them,
+  /// whatever the others say: which they are is left to the device.
+  static LGIW_FN bool any_beside(bool mine) {
+#if defined(__CUDA_ARCH__)
+    return __any_sync(__activemask(), mine);
+#else
+    return mine;
+#endif
+  }
 };
 /// No machine has vectors of more floats.
 constexpr int widest_lanes = 16;

@@ -14,6 +14,7 @@
 
 #include "solver/backend_array.hh"
 #include "solver/passes.hh"
+#include "solver/rearrangement.hh"
 #include "solver/tiles.hh"
 
 namespace lgiw {
@@ -27,6 +28,10 @@ struct OpenMpBackend {
   /// Width of the cells, which are the tiles: about 16 particles in 3-D and 11 in 2-D. Wider ones have more candidates
   /// per neighbour, narrower ones share a copy among fewer particles (docs/performance.md).
   static double cell_width(double h, int dimension) { return (dimension == 2 ? 2.2 : 1.7) * h; }
+  template <class T, int D>
+  static Grid<T, D> grid(const double* low, const double* high, double h, double) {
+    return Grid<T, D>(low, high, cell_width(h, D));
+  }
 
   /// Aligned for vector loads.
   struct Memory {
@@ -98,13 +103,16 @@ struct OpenMpBackend {
       F pass = f;
       PairNeighbourhood<typename F::Types, Tile> near(pass, memory_[omp_get_thread_num()]);
       const int thickness = near.cells().furthest(), slabs = (cells + thickness - 1) / thickness;
+      const auto begin_of = [&](int s) { return int(std::min(int64_t(cells), int64_t(s) * thickness)); };
+#pragma omp single nowait
+      order_slabs(slabs, [&](int s) { return start[begin_of(s + 1)] - start[begin_of(s)]; });
 #pragma omp for schedule(static)
       for (int i = 0; i < own.n; ++i) near.clear_sums(i);
-      for (int odd = 0; odd < 2; ++odd)
+      for (const std::vector<int>& turn : slabs_)
 #pragma omp for schedule(dynamic, 1)
-        for (int s = odd; s < slabs; s += 2) {
-          const int end = int(std::min(int64_t(cells), int64_t(s + 1) * thickness));
-          for (int c = s * thickness; c < end; ++c) {
+        for (int k = 0; k < int(turn.size()); ++k) {
+          const int end = begin_of(turn[k] + 1);
+          for (int c = begin_of(turn[k]); c < end; ++c) {
             if (start[c] == start[c + 1]) continue;
             near.look(c);
             for (int i = start[c]; i < start[c + 1]; ++i)
@@ -187,14 +195,28 @@ struct OpenMpBackend {
     marks_.resize(near.size());
     NearCells<Machine, T, D>(grid, h).mark(start.data(), near.data(), marks_.data());
   }
-  template <class T>
-  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
-    const int n = int(from.size());
-    T* out = to.data();
-    const T* in = from.data();
-    const int* o = order.data();
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < n; ++i) out[i] = in[o[i]];
+  /// Carries out moves of n values each, those that gather by `order`. One parallel region for all of them: to begin
+  /// and end one takes as long as to gather a field of 20,000 values.
+  void rearrange(std::size_t n, const int* order, const std::vector<Rearrangement>& moves) {
+    if (moves.empty()) return;
+#pragma omp parallel
+    {
+      const std::size_t threads = std::size_t(omp_get_num_threads()), me = std::size_t(omp_get_thread_num());
+      const std::size_t begin = n * me / threads, end = n * (me + 1) / threads;
+      for (const Rearrangement& move : moves) {
+        move.with_types([&](auto* to, const auto* from) {
+          using To = std::remove_pointer_t<decltype(to)>;
+          if (move.gathers())
+            for (std::size_t i = begin; i < end; ++i) to[i] = To(from[order[i]]);
+          else
+            for (std::size_t i = begin; i < end; ++i) to[i] = To(from[i]);
+        });
+        // What was gathered from is written next; what is rounded is each thread's own.
+        if (move.gathers()) {
+#pragma omp barrier
+        }
+      }
+    }
   }
   /// A thread takes a few hundred particles at a time, whole cells.
   template <class View, class F, class Run>
@@ -251,12 +273,28 @@ struct OpenMpBackend {
     Limits<T>& to_;
     std::vector<Found> found_;
   };
+  /// The slabs that are worked on at a time, even ones first, then odd ones; those with most particles first, so that
+  /// no thread is left with one at the end.
+  template <class Size>
+  void order_slabs(int slabs, const Size& size) {
+    for (int odd = 0; odd < 2; ++odd) {
+      std::vector<int>& turn = slabs_[odd];
+      turn.clear();
+      for (int s = odd; s < slabs; s += 2)
+        if (size(s) > 0) turn.push_back(s);
+      std::sort(turn.begin(), turn.end(), [&](int a, int b) {
+        const int of_a = size(a), of_b = size(b);
+        return of_a != of_b ? of_a > of_b : a < b;
+      });
+    }
+  }
   void prepare_memory() {
     while (int(memory_.size()) < omp_get_max_threads()) memory_.emplace_back();
   }
 
   std::vector<Tile> memory_;          // one a thread
   std::vector<int> counts_;           // of the sort
+  std::vector<int> slabs_[2];         // of cells, in the order in which pairs are computed
   std::vector<unsigned char> marks_;  // of cells
 };
 

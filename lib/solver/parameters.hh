@@ -164,10 +164,11 @@ struct WaterView {
   typename Tr::P* position[D] = {};
   T* v[D] = {};
   T* a[D] = {};
-  T* excess = nullptr;        // rho - rho0
-  T* excess_next = nullptr;   // leapfrog: sums of continuity, then the new density
-  T* density_rate = nullptr;  // Verlet: where the forces were taken
-  T* term = nullptr;          // p / rho^2
+  T* excess = nullptr;           // rho - rho0
+  T* excess_next = nullptr;      // leapfrog: sums of continuity, then the new density
+  T* density_rate = nullptr;     // Verlet: where the forces were taken
+  T* term = nullptr;             // p / rho^2
+  T* inverse_density = nullptr;  // of copies only (tiles.hh)
   unsigned* id = nullptr;
   T* v_previous[D] = {};  // Verlet only
   T* excess_previous = nullptr;

@@ -15,13 +15,7 @@
 
 namespace lgiw {
 
-/// Functors that are no physics: conversions and bookkeeping.
-template <class T, class P>
-struct Convert {
-  T* to;
-  const P* from;
-  LGIW_FN void operator()(int i) const { to[i] = T(from[i]); }
-};
+/// Functors that are no physics: bookkeeping.
 template <class Tr>
 struct FinishStep {
   Parameters<Tr> parameters;
@@ -215,7 +209,7 @@ class ParticleSimulation final : public Simulation {
         const double x = in.wall_x[3 * i + axis(k)];
         low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
       }
-    grid_ = Grid<T, D>(low, high, Backend::cell_width(m.h, D));
+    grid_ = Backend::template grid<T, D>(low, high, m.h, double(n_water_) + n_soil_ + double(in.n_wall()));
     LGIW_VALIDATE(grid_.cells > 0, "the domain needs more than 2 000 000 000 cells",
                   "cells are as wide as a few particles", "use a coarser particle spacing or a smaller window");
     state_ = Array<StepState>(1);
@@ -413,6 +407,7 @@ class ParticleSimulation final : public Simulation {
     return sum;
   }
   std::string device() const override { return backend_.name(); }
+  bool leaves_host_free() const override { return !Backend::on_host; }
   std::string description() const override {
     const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
     const std::string instructions = backend_.instructions();
@@ -665,20 +660,22 @@ class ParticleSimulation final : public Simulation {
     if (n_soil_) sort_phase(soil_);
     if (n_bodies_) sort_phase(bodies_);
   }
-  template <class Phase>
-  void sort_phase(Phase& phase) {
-    sort_particles(phase);
-    follow_order(phase);
-  }
   /// What is made of the particles in their sorted order before any pass reads them.
   template <class Phase>
   void follow_order(Phase& phase) {
     mark_cells(phase);
+    backend_.rearrange(phase.key.size(), nullptr, rounding(phase));
+  }
+  /// Positions as the passes read them.
+  template <class Phase>
+  std::vector<Rearrangement> rounding(const Phase& phase) {
+    std::vector<Rearrangement> moves;
     if constexpr (two_positions && !std::is_same_v<Phase, Bodies>)
-      for (int k = 0; k < D; ++k) convert(phase.x[k], phase.position[k]);
+      for (int k = 0; k < D; ++k) moves.push_back(Rearrangement::rounded(phase.x[k].data(), phase.position[k].data()));
+    return moves;
   }
   template <class Phase>
-  void sort_particles(Phase& phase) {
+  void sort_phase(Phase& phase) {
     Spare& spare = phase.spare;
     const auto sized = [n = phase.key.size()](auto& q) -> auto& {
       if (q.size() != n) q = std::remove_reference_t<decltype(q)>(n);
@@ -686,12 +683,16 @@ class ParticleSimulation final : public Simulation {
     };
     // Before a field has been gathered, what it goes to is free.
     backend_.sort_by_cell(phase.key, grid_.cells, sized(spare.order), phase.start, sized(spare.t), sized(spare.id));
+    std::vector<Rearrangement> moves;
     phase.carried([&](auto& q, const char*) {
       if (!q.size()) return;
       auto& to = sized(spare.of(q));
-      backend_.gather(to, q, spare.order);
+      moves.push_back(Rearrangement::gathered(to.data(), q.data()));
       q.swap(to);
     });
+    for (const Rearrangement& rounded : rounding(phase)) moves.push_back(rounded);
+    backend_.rearrange(phase.key.size(), spare.order.data(), moves);
+    mark_cells(phase);
   }
 
   // Plumbing.
@@ -747,9 +748,6 @@ class ParticleSimulation final : public Simulation {
     int n;
     backend_.download(&n, start, std::size_t(grid_.cells), 1);
     return n;
-  }
-  void convert(Array<T>& to, const Array<P>& from) {
-    backend_.for_each(int(to.size()), Convert<T, P>{to.data(), from.data()});
   }
   /// Component k of interleaved vectors; zeros where there are none.
   static std::vector<T> component(const std::vector<float>& values, std::size_t n, int k) {

@@ -8,18 +8,32 @@
 
 namespace lgiw {
 
-// On the CPU the particles near a tile are copied side by side (tiles.hh), and a pair loop computes all of them, the
-// kernel being zero outside its support, so that it vectorises; on a device a far candidate is skipped at once.
 #if defined(__CUDA_ARCH__)
-#define LGIW_PAIR_LOOP _Pragma("unroll 1")
-#define LGIW_ROW_LOOP _Pragma("unroll 1")
-#define LGIW_SKIP_FAR(r2, support2) \
-  if (r2 >= support2) continue
+#define LGIW_ROLLED _Pragma("unroll 1")
 #else
-#define LGIW_PAIR_LOOP _Pragma("GCC ivdep")
-#define LGIW_ROW_LOOP
-#define LGIW_SKIP_FAR(r2, support2) (void)0
+#define LGIW_ROLLED
 #endif
+
+/// Numbers of particles, of which each thread has its own: on a device in shared memory.
+template <class Machine>
+class NearList {
+ public:
+  static constexpr int size = Machine::list;
+#if defined(__CUDA_ARCH__)
+  __device__ __forceinline__ int& operator[](int k) { return of_block()[k * Machine::block + int(threadIdx.x)]; }
+
+ private:
+  static __device__ __forceinline__ int* of_block() {
+    __shared__ int numbers[size * Machine::block];
+    return numbers;
+  }
+#else
+  LGIW_FN int& operator[](int k) { return numbers_[k]; }
+
+ private:
+  int numbers_[size];
+#endif
+};
 
 template <class Tr>
 struct Pass {
@@ -72,31 +86,64 @@ struct Pass {
   /// Calls f(j, r, r2) for the particles j of a phase near x (whose cell is given): r = x - x_j, r2 = |r|^2, and `view`
   /// is one of nearby(). Those beyond the kernel's support may come too, and x itself with r = 0: every pair law is
   /// zero for them.
+  ///
+  /// On the CPU the particles near a tile have been copied side by side (tiles.hh), and all of them are computed, so
+  /// that the loop vectorises.
   template <class View, class F>
   LGIW_FN void for_each_near(const View& view, [[maybe_unused]] int cell, const V& x, const F& f) const {
     if constexpr (Tr::tiles) {
-      LGIW_PAIR_LOOP
+#if !defined(__CUDACC__)
+#pragma GCC ivdep
+#endif
       for (int j = 0; j < view.n; ++j) {
         const V r = x - load(view.x, j);
         f(j, r, dot(r, r));
       }
     } else {
-      LGIW_ROW_LOOP
-      for (int k = 0; k < Grid<T, D>::rows; ++k) {
-        int begin, end;
-        grid.row(view.start, cell, k, begin, end);
-        LGIW_PAIR_LOOP
-        for (int j = begin; j < end; ++j) {
+      for_each_listed(view, cell, x, f);
+    }
+  }
+  /// The same on a device, without those beyond reach. A thread first lists who is near, then computes them: what
+  /// one thread of a warp computes all others wait for, and each has other neighbours among its candidates.
+  template <class View, class F>
+  LGIW_FN void for_each_listed(const View& view, int cell, const V& x, const F& f) const {
+    using Machine = typename Tr::Machine;
+    const int rows = grid.rows();
+    const T reach = T(2 * reach_in_supports) * parameters.h, far2 = reach * reach;
+    NearList<Machine> list;
+    int n = 0;
+    LGIW_ROLLED
+    for (int k = 0; k <= rows; ++k) {  // the last one computes what is left
+      int j = 0, end = 0;
+      if (k < rows) grid.row(view.start, cell, k, j, end);
+      for (;;) {
+        LGIW_ROLLED
+        for (; j < end && n < list.size; ++j) {
           const V r = x - load(view.x, j);
-          const T r2 = dot(r, r);
-          LGIW_SKIP_FAR(r2, support2());
-          f(j, r, r2);
+          list[n] = j;
+          n += dot(r, r) < far2;  // no branch: some thread of a warp always has one
         }
+        if (!Machine::any_beside(n == list.size) && k < rows) break;
+        LGIW_ROLLED
+        for (int m = 0; m < n; ++m) {
+          const int near = list[m];
+          const V r = x - load(view.x, near);
+          f(near, r, dot(r, r));
+        }
+        n = 0;
+        if (!Machine::any_beside(j < end)) break;
       }
     }
   }
   static LGIW_FN void add(T* const* a, int i, T s, const V& v) {
     for (int k = 0; k < D; ++k) a[k][i] += s * v.c[k];
+  }
+  /// True where it is known beforehand that neither water nor soil is near: on the CPU.
+  LGIW_FN bool nothing_near() const {
+    if constexpr (Tr::tiles)
+      return copies.water.n == 0 && copies.soil.n == 0;
+    else
+      return false;
   }
   /// The phases among which a pass finds its neighbours: whole, or copies of what is near a tile.
   LGIW_FN const auto& nearby() const {
@@ -132,7 +179,6 @@ struct Pass {
   /// what turns at omega loses density by omega^2 dt a second: drops that spin burst, eddies suck.
   LGIW_FN T half_step() const { return parameters.verlet ? T(0) : T(0.5 * state->dt); }
   static LGIW_FN V earlier(const V& r, const V& v, T half) { return r - half * v; }
-  LGIW_FN T support2() const { return 4 * parameters.h * parameters.h; }
   LGIW_FN T pore_pressure(T z) const {
     return largest(T(0), parameters.pore_gradient * (parameters.still_water_level - z));
   }
@@ -415,7 +461,7 @@ struct BodyMotion : Pass<Tr> {
   LGIW_FN bool inside(const double* place) const {
     for (int k = 0; k < D; ++k) {
       const double cell = (place[axis(k)] - this->grid.low[k]) * this->grid.inverse_width;
-      if (!(cell >= 1 && cell < this->grid.n[k] - 1)) return false;
+      if (!(cell >= this->grid.margin && cell < this->grid.n[k] - this->grid.margin)) return false;
     }
     return true;
   }
@@ -425,17 +471,33 @@ struct BodyMotion : Pass<Tr> {
 // Rates: density of water, stress of soil
 
 /// Continuity of two water particles: what each adds to the rate of the other one. `diffusion` compiles in that of
-/// density, which alone needs the excess densities.
-template <bool diffusion, class T, int D>
-LGIW_FN void continuity_of_pair(const WaterContinuity<T, D>& continuity, T rho0, const Vec<T, D>& r,
-                                const Vec<T, D>& v_ij, T f, T e_i, const T* excess, int j, T& mine, T& other) {
+/// density, which alone needs the densities.
+template <bool diffusion, class Tr>
+LGIW_FN void continuity_of_pair(const WaterContinuity<typename Tr::T, Tr::D>& continuity, typename Tr::T rho0,
+                                const Vec<typename Tr::T, Tr::D>& r, const Vec<typename Tr::T, Tr::D>& v_ij,
+                                typename Tr::T f, typename Tr::T e_i, const WaterView<Tr>& w, int j,
+                                typename Tr::T& mine, typename Tr::T& other) {
+  using T = typename Tr::T;
   if constexpr (diffusion) {
-    const T e_j = excess[j];
-    mine = continuity(r, v_ij, f, e_i, e_j, rho0 + e_j);
-    other = continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, rho0 + e_i);
+    const T e_j = w.excess[j];
+    T inverse_j;
+    if constexpr (Tr::tiles)
+      inverse_j = w.inverse_density[j];
+    else
+      inverse_j = 1 / (rho0 + e_j);
+    mine = continuity(r, v_ij, f, e_i, e_j, inverse_j);
+    other = continuity(T(-1) * r, T(-1) * v_ij, f, e_j, e_i, 1 / (rho0 + e_i));
   } else {
     mine = other = continuity(r, v_ij, f);
   }
+}
+/// What it reads of neighbours, with their velocities. A division for each candidate of a tile saves one for each of
+/// its pairs.
+template <class Tr, class F>
+void continuity_reads(const Parameters<Tr>& p, WaterView<Tr>& w, F&& f) {
+  f(w, w.v);
+  if (!p.density_diffusion) return;
+  f(w, w.excess), f.reciprocal(w, w.inverse_density, w.excess, p.eos.rho0);
 }
 
 /// Gives a water particle its new density, and the pressure that follows from it. Half or twice the reference density
@@ -463,11 +525,7 @@ struct WaterPairRates : Pass<Tr> {
 
   template <class F>
   void reads(F&& f) {
-    auto& w = this->copies.water;
-    if (this->parameters.density_diffusion)
-      f(w, w.v, w.excess);
-    else
-      f(w, w.v);
+    continuity_reads(this->parameters, this->copies.water, f);
   }
   template <class F>
   void sums(F&& f) {
@@ -491,7 +549,7 @@ struct WaterPairRates : Pass<Tr> {
       const V v_ij = v - B::load(w.v, j), r = B::earlier(now, v_ij, half);
       const T f = kernel.gradient(Distance<T>(dot(r, r)));
       T mine, other;
-      continuity_of_pair<diffusion>(continuity, rho0, r, v_ij, f, e_i, w.excess, j, mine, other);
+      continuity_of_pair<diffusion, Tr>(continuity, rho0, r, v_ij, f, e_i, w, j, mine, other);
       rate += mine;
       if constexpr (Tr::pairs_once) w.excess_next[j] += other;
     });
@@ -573,6 +631,37 @@ struct WaterDensity : Pass<Tr> {
     w.excess_previous[i] = now;
     store_density(this->parameters, w, i, w.excess, next, failed);
   }
+
+#if !defined(__CUDACC__)
+  /// On a host: the particles [begin, end), of which there are at most block_size, side by side where they are water
+  /// still, the others as above.
+  static constexpr int block_size = 256;
+  void block(int begin, int end) const {
+    if (this->idle()) return;
+    const WaterDensity self = *this;  // nothing that is written here can change it, as the compiler sees
+    const auto& w = self.water;
+    const StepState st = *this->state;
+    const bool euler = st.euler_countdown == 0;
+    const T step = T(euler ? st.dt : st.dt + st.dt_previous), rho0 = self.parameters.eos.rho0;
+    const int active = w.start[this->grid.cells], last = end < active ? end : active;
+    T amiss[block_size];
+    T any = 0;
+#pragma omp simd reduction(+ : any)
+    for (int i = begin; i < last; ++i) {
+      const T now = w.excess[i], before = w.excess_previous[i];
+      const T next = (euler ? now : before) + step * w.density_rate[i], rho = rho0 + next;
+      const T term = self.parameters.eos.pressure(next) / (rho * rho);
+      const bool sound = Motion<Tr, true>::sound(double(next), 0.5 * double(rho0));
+      amiss[i - begin] = sound ? T(0) : T(1);
+      any += amiss[i - begin];
+      w.excess_previous[i] = sound ? now : before;
+      w.excess[i] = sound ? next : now;
+      w.term[i] = sound ? term : w.term[i];
+    }
+    for (int i = begin; i < last && any > 0; ++i)
+      if (amiss[i - begin] > 0) (*this)(i);
+  }
+#endif
 };
 
 /// Velocity images at the walls, or at the bodies, for the soil's velocity gradient: 2 v_wall - v_mean on rough walls,
@@ -773,6 +862,7 @@ struct WallImages : WaterImage<Tr> {
   LGIW_FN void operator()(int i) const {
     const auto& p = this->parameters;
     const auto& b = B::template walls<of_bodies>();
+    if (this->nothing_near()) return clear(b, i);
     const int cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
     if (this->water.n) {
@@ -784,6 +874,13 @@ struct WallImages : WaterImage<Tr> {
       b.term[i] = pressure / (rho * rho);
     }
     if (this->soil.n) B::store_stress(b.stress, i, soil_stress(i, cell, x));
+  }
+
+  /// What follows where nothing is near, as for most walls of a dry bank.
+  template <class Walls>
+  LGIW_FN void clear(const Walls& b, int i) const {
+    if (this->water.n) b.excess[i] = b.term[i] = 0;
+    for (int c = 0; c < S && this->soil.n; ++c) b.stress[c][i] = 0;
   }
 
   /// Stress of the soil near x, continued to x. On rough walls the effective stress is continued along the normal as
@@ -915,7 +1012,10 @@ struct WaterPairForces : Pass<Tr> {
   template <class F>
   void reads(F&& f) {
     auto& w = this->copies.water;
-    f(w, w.v, w.excess, w.term);
+    if (rates && this->parameters.density_diffusion)
+      continuity_reads(this->parameters, w, f), f(w, w.term);
+    else
+      f(w, w.v, w.excess, w.term);
   }
   template <class F>
   void sums(F&& f) {
@@ -954,7 +1054,7 @@ struct WaterPairForces : Pass<Tr> {
       if constexpr (Tr::pairs_once) B::add(w.a, j, -push, r);
       if constexpr (rates) {
         T mine, other;
-        continuity_of_pair<diffusion>(continuity, rho0, r, v_ij, f, e_i, w.excess, j, mine, other);
+        continuity_of_pair<diffusion, Tr>(continuity, rho0, r, v_ij, f, e_i, w, j, mine, other);
         sum += mine;
         if constexpr (Tr::pairs_once) w.density_rate[j] += other;
       }

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -158,6 +159,12 @@ class Runner {
     for (const std::string& warning : warnings_) log("warning: " + warning);
     warn_of_space();
   }
+  ~Runner() {
+    if (output_being_made_.valid()) output_being_made_.wait();
+    omp_set_num_threads(threads_);
+  }
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
 
   std::string run() {
     SignalGuard guard;
@@ -323,7 +330,8 @@ class Runner {
     while (st.time < target) {
       const int64_t before = st.step;
       const double since = elapsed();
-      st = simulation_->advance(target, batch_);
+      const bool shared = shares_threads();
+      st = simulation_->advance(target, shared ? 1 : batch_);
       const double seconds = elapsed() - since;
       steps_taken_ += st.step - before, seconds_taken_ += seconds;
       if (failed(st)) {
@@ -331,9 +339,9 @@ class Runner {
         return false;
       }
       // As many steps at a stroke as keep signals and progress prompt.
-      if (seconds < 0.1)
+      if (!shared && seconds < 0.1)
         batch_ = std::min<int64_t>(2 * batch_, 1000);
-      else if (seconds > 0.4)
+      else if (!shared && seconds > 0.4)
         batch_ = std::max<int64_t>(batch_ / 2, 1);
       progress(st);
       if (st.time < target) checkpoint_if_due();
@@ -362,6 +370,7 @@ class Runner {
     if (case_.numerics.retakes == 0) return;
     const int64_t step = simulation_->state().step;
     if (!kept_.empty() && step < kept_.back().step + steps_between_kept) return;
+    wait_for_output();
     if (kept_.size() == 2) kept_.erase(kept_.begin());
     kept_.push_back({step, present()});
   }
@@ -370,6 +379,7 @@ class Runner {
   /// so on; throws when that was in vain. The smaller step lasts until as much time has passed beyond the failure as
   /// lay before it.
   void go_back(const StepState& at) {
+    wait_for_output();
     const bool again = retaken_.tries > 0;
     if (again ? retaken_.tries == case_.numerics.retakes : kept_.empty() || retaken_.failures == most_failures)
       give_up(at);
@@ -439,11 +449,47 @@ class Runner {
     options_.progress(st.settling ? 0 : std::min(1.0, st.time / case_.output.end_time), note);
   }
 
-  /// Surface rasters, maxima and diagnostics of the present state, and every so often a frame.
+  /// Surface rasters, maxima and diagnostics of the present state, and every so often a frame. The solver steps on
+  /// while they are made, on a CPU with the threads that are left: most of an output is one after the other.
   void record() {
+    wait_for_output();
+    simulation_->download(output_.state);
+    output_.at = simulation_->state();
+    output_.with_frame = schedule_.with_frame(outputs_);
+    // Costs half a step, in whose phases it is counted, and changes slowly.
+    const bool measured = outputs_ == 0 || outputs_ == schedule_.last ||
+                          (output_.with_frame &&
+                           double(output_.at.step) >= extremes_["momentum_residual_step"] + steps_between_residuals);
+    if (measured) extremes_["momentum_residual_step"] = double(output_.at.step);
+    output_.momentum_residual = measured ? momentum_residual() : extremes_["last_momentum_residual"];
+    ++outputs_;
+    const int for_output = simulation_->leaves_host_free() ? threads_ : std::max(1, threads_ / 8);
+    if (for_output == threads_ && !simulation_->leaves_host_free()) return make_output();
+    output_being_made_ = std::async(std::launch::async, [this, for_output] {
+      omp_set_num_threads(for_output);
+      make_output();
+    });
+    if (!simulation_->leaves_host_free()) omp_set_num_threads(threads_ - for_output);
+  }
+  /// Before anything that an output makes is looked at or changed: the run file, maxima and extremes. Throws what went
+  /// wrong with it.
+  void wait_for_output() {
+    if (!output_being_made_.valid()) return;
+    output_being_made_.wait();
+    omp_set_num_threads(threads_);
+    output_being_made_.get();
+  }
+  /// Whether the solver has fewer threads for it. Gives them back when the output is done.
+  bool shares_threads() {
+    if (omp_get_max_threads() == threads_) return false;
+    if (output_being_made_.valid() && output_being_made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+      return true;
+    omp_set_num_threads(threads_);
+    return false;
+  }
+  void make_output() {
     ParticleState& s = output_.state;
-    simulation_->download(s);
-    const StepState st = simulation_->state();
+    const StepState& st = output_.at;
     Frame& frame = output_.frame;
     frame.time = st.time;
     frame.points.assign(s.water_x.begin(), s.water_x.end());
@@ -459,34 +505,24 @@ class Runner {
     writer_->add_surface(st.time, nw ? surfaces.water : none, surfaces.soil, water_pressures(model_, s, gauge_points_));
     accumulate(surfaces, st.time, nw > 0, ns > 0);
 
-    const bool with_frame = schedule_.with_frame(outputs_);
-    double since = elapsed();
+    const double since = elapsed();
     DiagnosticsRow row = diagnose(model_, s, st, header_.bed);
-    diagnostics_seconds_ += elapsed() - since;
-    // Costs half a step, in whose phases it is counted, and changes slowly.
-    const bool measured =
-        outputs_ == 0 || outputs_ == schedule_.last ||
-        (with_frame && double(st.step) >= extremes_["momentum_residual_step"] + steps_between_residuals);
-    if (measured) extremes_["momentum_residual_step"] = double(st.step);
-    row.emplace_back("momentum_residual", measured ? momentum_residual() : extremes_["last_momentum_residual"]);
-    since = elapsed();
+    row.emplace_back("momentum_residual", output_.momentum_residual);
     writer_->add_diagnostics(st.time, row);
     lgiw::accumulate(row, extremes_);
     refuse_compressed(row, st.time);
     diagnostics_seconds_ += elapsed() - since;
 
-    if (with_frame) {
-      if (nw) {
-        frame.pressure = s.water_pressure;
-        frame.pressure.resize(nw + ns, 0.f);
-      }
-      if (ns) {
-        frame.adps.assign(nw, 0.f);
-        frame.adps.insert(frame.adps.end(), s.soil_adps.begin(), s.soil_adps.end());
-      }
-      writer_->add_frame(frame);
+    if (!output_.with_frame) return;
+    if (nw) {
+      frame.pressure = s.water_pressure;
+      frame.pressure.resize(nw + ns, 0.f);
     }
-    ++outputs_;
+    if (ns) {
+      frame.adps.assign(nw, 0.f);
+      frame.adps.insert(frame.adps.end(), s.soil_adps.begin(), s.soil_adps.end());
+    }
+    writer_->add_frame(frame);
   }
 
   /// Water that is no longer nearly incompressible gives smooth, wrong waves.
@@ -565,6 +601,7 @@ class Runner {
   }
 
   void checkpoint() {
+    wait_for_output();
     flush();
     output_ = {};  // room for the checkpoint
     write_checkpoint(checkpoint_path(options_.output), present());
@@ -617,6 +654,7 @@ class Runner {
   }
 
   std::string finish() {
+    wait_for_output();
     writer_->write_maxima(maxima_);
     // Of the run itself: what follows looks back at it.
     const double wall_time = elapsed(), peak = peak_memory();
@@ -684,7 +722,7 @@ class Runner {
         (double(st.step) + extremes_["settle_steps"]) * double(header_.counts.total()) / std::max(stepping, 1e-9);
     j["peak_memory_bytes"] = peak;
     j["device"] = simulation_->device();
-    j["threads"] = omp_get_max_threads();
+    j["threads"] = threads_;
     j["version"] = version_string();
     for (const PhaseTime& t : simulation_->timings()) j["phase_seconds"][t.name] = t.seconds;
     j["phase_seconds"]["diagnostics"] = diagnostics_seconds_;
@@ -740,6 +778,9 @@ class Runner {
   /// Of the last output, whose memory the next one uses: new from the system it costs page faults.
   struct {
     ParticleState state;
+    StepState at;
+    double momentum_residual = 0;
+    bool with_frame = false;
     Frame frame;
   } output_;
   struct {
@@ -747,10 +788,12 @@ class Runner {
     double until = 0;             // s: end of the smaller time step
   } retaken_;
   static constexpr int64_t steps_between_kept = 500;   // a copy costs the time of a few steps on a device
-  static constexpr int steps_between_residuals = 100;  // each costs half of one
+  static constexpr int steps_between_residuals = 500;  // each costs half of one
   static constexpr int most_failures = 10;
+  const int threads_ = omp_get_max_threads();
   int64_t outputs_ = 0, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();
+  std::future<void> output_being_made_;
 };
 
 }  // namespace

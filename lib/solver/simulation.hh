@@ -92,6 +92,8 @@ class Simulation {
   virtual PhaseBytes bytes() const = 0;         // held for particles and neighbours
   virtual std::string description() const = 0;  // backend, precision, kernel
   virtual std::string device() const = 0;       // what it runs on
+  /// Whether another thread of the host can do something else while it steps.
+  virtual bool leaves_host_free() const = 0;
   /// What this scene does not need and therefore neither holds nor runs, with the bytes saved.
   virtual std::vector<std::string> left_out() const = 0;
 };

@@ -21,9 +21,11 @@ namespace lgiw {
 /// Memory of one thread for the copies. Bytes: the backend's array of unsigned char.
 template <class Bytes>
 struct TileMemory {
-  Bytes copies;                           // grows to what the fullest tile needs
-  std::vector<std::pair<int, int>> rows;  // of cells, [first, last)
-  std::vector<int> index;                 // of the copied particles, where sums go back to them
+  static constexpr int phases = 4;
+  Bytes copies;            // grows to what the fullest tile needs
+  Ranges rows;             // of cells
+  Ranges ranges[phases];   // of the particles in them
+  std::vector<int> index;  // of the copied particles, where sums go back to them
 
   void* take(std::size_t bytes) {
     if (bytes > copies.size()) copies = Bytes(bytes + bytes / 2);
@@ -36,7 +38,7 @@ template <class Machine, class T, int D>
 class NearCells {
  public:
   NearCells(const Grid<T, D>& grid, T h)
-      : grid_(grid), reach_(T(2 * margin) * h), steps_(double(reach_) * grid.inverse_width) {
+      : grid_(grid), reach_(T(2 * reach_in_supports) * h), steps_(double(reach_) * grid.inverse_width) {
     assert(steps_ < std::sqrt(2.0));  // mark()
   }
 
@@ -54,17 +56,24 @@ class NearCells {
     return box;
   }
   /// Ranges of cells [first, last) from number `from` on that hold everything near the box there.
-  void find_rows(const NearBox<T, D>& box, int from, std::vector<std::pair<int, int>>& rows) const {
+  void find_rows(const NearBox<T, D>& box, int from, Ranges& rows) const {
     rows.clear();
     const Slabs along(*this, box, grid_.order[0]), across(*this, box, grid_.order[1]);
     const auto in_plane = [&](double square, int before) {
-      for (int b = across.first; b <= across.last; ++b) {
-        const double rest = square - across.square(b);
-        if (rest <= 0) continue;
-        const double chord = std::sqrt(rest);
-        const int row = before + b * across.stride;
-        const int first = row + along.held(along.low - chord), last = row + along.held(along.high + chord) + 1;
-        if (last > from) rows.push_back({std::max(first, from), last});
+      for (int b = across.first; b <= across.last; b += abreast) {
+        // Their roots beside each other: one after the other they would take as long as the copies.
+        double rest[abreast];
+        int begin[abreast], end[abreast];
+#pragma omp simd
+        for (int k = 0; k < abreast; ++k) {
+          rest[k] = square - across.square(b + k);
+          const double chord = std::sqrt(rest[k] > 0 ? rest[k] : 0.0);
+          begin[k] = along.held(along.low - chord), end[k] = along.held(along.high + chord) + 1;
+        }
+        for (int k = 0; k < abreast && b + k <= across.last; ++k) {
+          const int row = before + (b + k) * across.stride;
+          if (rest[k] > 0 && row + end[k] > from) rows.push_back({std::max(row + begin[k], from), row + end[k]});
+        }
       }
     };
     const double square = steps_ * steps_;
@@ -117,10 +126,9 @@ class NearCells {
   }
 
  private:
-  // Rates are taken half a step ago: pairs that have just left the support still count.
-  static constexpr double margin = 1.005;
   static constexpr int few_cells = 100000;  // too few to share among threads
   static constexpr int block = 4096;        // of cells, which stay in the nearest cache
+  static constexpr int abreast = 8;         // rows of cells
 
   /// The box and what is near it along one axis, in widths of a cell.
   struct Slabs {
@@ -133,10 +141,13 @@ class NearCells {
           stride(near.grid_.stride[k]),
           first(held(low - near.steps_)),
           last(held(high + near.steps_)) {}
-    int held(double u) const { return u < 0 ? 0 : (u >= n - 1 ? n - 1 : int(u)); }
+    int held(double u) const {
+      const double above = u > 0 ? u : 0.0, most = n - 1;
+      return int(above < most ? above : most);
+    }
     /// Of the distance of slab c from the box.
     double square(int c) const {
-      const double d = std::max(c - high, low - c - 1);
+      const double above = c - high, below = low - c - 1, d = above > below ? above : below;
       return d > 0 ? d * d : 0;
     }
   };
@@ -157,6 +168,8 @@ struct CopiedPhase {
   int fields = 0;
   T** slot[most_fields];  // pointers of the view
   const T* from[most_fields];
+  int reciprocal = -1;  // the field of which copies hold 1 / (offset + value)
+  T offset = 0;
 
   template <class U>
   void add(U*& field) {
@@ -168,13 +181,35 @@ struct CopiedPhase {
   void add(U* (&list)[size]) {
     for (int k = 0; k < size; ++k) add(list[k]);
   }
+  void add_reciprocal(T*& field, const T* of, T plus) {
+    reciprocal = fields, offset = plus;
+    slot[fields] = &field;
+    from[fields++] = of;
+  }
+  /// Finds the ranges of particles in rows of cells, but for empty ones, and counts the particles.
+  static std::size_t particles_in(const Ranges& rows, const int* start, Ranges& ranges) {
+    ranges.clear();
+    std::size_t count = 0;
+    for (const auto& [first, last] : rows) {
+      const int begin = start[first], end = start[last];
+      if (begin == end) continue;
+      ranges.push_back({begin, end});
+      count += std::size_t(end - begin);
+    }
+    return count;
+  }
   static std::size_t whole_vectors(std::size_t n) { return (n + widest_lanes - 1) / widest_lanes * widest_lanes; }
-  /// Copies from the one at `end` up to whole vectors: particles beyond everyone's support.
+  /// Copies from the one at `end` up to whole vectors: particles beyond everyone's support. Makes reciprocals.
   int fill_up(T* const* copies, int end, const NearBox<T, D>& box, T reach) const {
     const int whole = int(whole_vectors(std::size_t(end)));
     for (int f = 0; f < fields; ++f) {
       const T value = f == 0 ? box.low[0] - 2 * reach : (f < D ? box.low[f] : T(0));
       for (int j = end; j < whole; ++j) copies[f][j] = value;
+    }
+    if (reciprocal >= 0) {
+      T* const values = copies[reciprocal];
+#pragma GCC ivdep
+      for (int j = 0; j < whole; ++j) values[j] = 1 / (offset + values[j]);
     }
     return whole;
   }
@@ -209,6 +244,12 @@ class Neighbourhood {
     }
     (phase->add(fields), ...);
   }
+  /// The same, where copies are to hold 1 / (offset + of) in `field`.
+  template <class View>
+  void reciprocal(View& view, T*& field, const T* of, T offset) {
+    for (int k = 0; k < phases_; ++k)
+      if (phase_[k].n == &view.n) phase_[k].add_reciprocal(field, of, offset);
+  }
   void clear() {
     for (int k = 0; k < phases_; ++k) *phase_[k].n = 0;
   }
@@ -223,9 +264,8 @@ class Neighbourhood {
     for (int k = 0; k < phases_; ++k) {
       room[k] = 0;
       if (absent(phase_[k])) continue;
-      std::size_t candidates = 0;
-      for (const auto& [first, last] : memory_.rows) candidates += phase_[k].start[last] - phase_[k].start[first];
-      room[k] = Phase::whole_vectors(candidates) + widest_lanes;
+      room[k] =
+          Phase::whole_vectors(Phase::particles_in(memory_.rows, phase_[k].start, memory_.ranges[k])) + widest_lanes;
       total += room[k] * phase_[k].fields;
     }
     T* to = static_cast<T*>(memory_.take(total * sizeof(T)));
@@ -234,17 +274,14 @@ class Neighbourhood {
       if (absent(phase)) continue;
       T* copies[Phase::most_fields];
       for (int f = 0; f < phase.fields; ++f, to += room[k]) *phase.slot[f] = copies[f] = to;
-      int n = 0;
-      for (const auto& [first, last] : memory_.rows)
-        n = copy_near<Tr::Machine::lanes>(box, phase.fields, phase.from, phase.start[first], phase.start[last], copies,
-                                          n);
+      const int n = copy_near<Tr::Machine::lanes>(box, phase.fields, phase.from, memory_.ranges[k], copies, 0);
       *phase.n = phase.fill_up(copies, n, box, near_.reach());
     }
   }
 
  private:
   using Phase = CopiedPhase<Tr>;
-  static constexpr int phases = 4;
+  static constexpr int phases = Memory::phases;
 
   const NearCells<typename Tr::Machine, T, D> near_;
   Memory& memory_;
@@ -270,8 +307,12 @@ class PairNeighbourhood {
   template <class View, class... Fields>
   void operator()(View& view, Fields&... fields) {
     phase_.n = &view.n, phase_.start = view.start;
-    phase_.add(view.x);
+    if (phase_.fields == 0) phase_.add(view.x);
     (phase_.add(fields), ...);
+  }
+  template <class View>
+  void reciprocal(View&, T*& field, const T* of, T offset) {
+    phase_.add_reciprocal(field, of, offset);
   }
   const NearCells<typename Tr::Machine, T, D>& cells() const { return near_; }
   /// Copies what lies near the particles of `cell`.
@@ -279,8 +320,8 @@ class PairNeighbourhood {
     const int begin = phase_.start[cell], end = phase_.start[cell + 1];
     const NearBox<T, D> box = near_.box_of(phase_.from, begin, end);
     near_.find_rows(box, cell + 1, memory_.rows);
-    std::size_t candidates = std::size_t(end - begin);
-    for (const auto& [first, last] : memory_.rows) candidates += phase_.start[last] - phase_.start[first];
+    const std::size_t candidates =
+        std::size_t(end - begin) + Phase::particles_in(memory_.rows, phase_.start, memory_.ranges[0]);
     const std::size_t room = Phase::whole_vectors(candidates) + widest_lanes;
     T* to = static_cast<T*>(memory_.take(room * (phase_.fields + sums_.fields) * sizeof(T)));
     if (memory_.index.size() < room) memory_.index.resize(room);
@@ -289,9 +330,8 @@ class PairNeighbourhood {
     for (int f = 0; f < phase_.fields; ++f)
       for (int i = begin; i < end; ++i) copies[f][i - begin] = phase_.from[f][i];
     first_ = last_ = end - begin;
-    for (const auto& [first, last] : memory_.rows)
-      last_ = copy_near<Tr::Machine::lanes>(box, phase_.fields, phase_.from, phase_.start[first], phase_.start[last],
-                                            copies, last_, memory_.index.data());
+    last_ = copy_near<Tr::Machine::lanes>(box, phase_.fields, phase_.from, memory_.ranges[0], copies, last_,
+                                          memory_.index.data());
     *phase_.n = phase_.fill_up(copies, last_, box, near_.reach());
     for (int f = 0; f < sums_.fields; ++f, to += room) {
       *sums_.slot[f] = to;

@@ -24,8 +24,8 @@ TEST(WaterContinuity, DiffusionVanishesInHydrostaticWater) {
   const Vec<double, 2> r{{0.03, 0.08}}, v{{0, 0}};
   // Linear density at rest: e falls upwards by rho0 g/c^2 a metre; r = r_i - r_j.
   const double slope = -1000 * g / (c * c), e_j = 2, e_i = e_j + slope * r[1];
-  EXPECT_NEAR(law(r, v, -5.0, e_i, e_j, 1000 + e_j), 0, 1e-14);
-  EXPECT_GT(std::fabs(law(r, v, -5.0, e_j, e_j, 1000 + e_j)), 1e-6);
+  EXPECT_NEAR(law(r, v, -5.0, e_i, e_j, 1 / (1000 + e_j)), 0, 1e-14);
+  EXPECT_GT(std::fabs(law(r, v, -5.0, e_j, e_j, 1 / (1000 + e_j))), 1e-6);
 }
 TEST(WaterContinuity, ApproachCompresses) {
   const WaterContinuity<double, 2> law{10, 0, {{0, 0}}};

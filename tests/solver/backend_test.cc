@@ -37,11 +37,20 @@ void check_sort(int n, int cells, int threads, double stirred) {
   const Backend::Array<int> keys(n), order(n), start(cells + 1);
   backend.upload(keys, key.data());
   const Backend::Array<double> field(n), moved(n);
+  const Backend::Array<float> rounded(n);
   for (int round = 0; round < 2; ++round) {
     backend.sort_by_cell(keys, cells, order, start, field, moved);
-    for (int i = 0; i < n; ++i) field.data()[i] = 0.5 * i + round, moved.data()[i] = -1;
-    backend.gather(moved, field, order);
-    for (int k = 0; k < n; ++k) ASSERT_EQ(moved.data()[k], 0.5 * expected[k] + round) << k;
+    // There and back, as fields follow a sort: the second goes to where the first came from.
+    for (int i = 0; i < n; ++i) field.data()[i] = 0.1 * i + round, moved.data()[i] = -1;
+    backend.rearrange(
+        std::size_t(n), order.data(),
+        {Rearrangement::gathered(moved.data(), field.data()), Rearrangement::gathered(field.data(), moved.data()),
+         Rearrangement::rounded(rounded.data(), field.data())});
+    for (int k = 0; k < n; ++k) {
+      ASSERT_EQ(moved.data()[k], 0.1 * expected[k] + round) << k;
+      ASSERT_EQ(field.data()[k], 0.1 * expected[expected[k]] + round) << k;
+      ASSERT_EQ(rounded.data()[k], float(field.data()[k])) << k;
+    }
   }
   omp_set_num_threads(before);
   ASSERT_TRUE(std::equal(expected.begin(), expected.end(), order.data()));
@@ -64,16 +73,18 @@ TEST(Sort, IsStableAndFollowedWithAnyNumberOfThreads) {
 }
 
 // What a device's threads do where the CPU counts.
-TEST(CellStart, OfEachCellByItself) {
-  const int cells = 1000;
-  for (const std::vector<int>& key :
-       {std::vector<int>{}, {0}, {cells}, {0, 0, 0, cells}, {3, 3, 500, 500, 500, 501, 999, cells, cells}}) {
-    std::vector<int> start(cells + 1, -1);
-    const CellStart write{key.data(), int(key.size()), start.data()};
-    for (int c = cells; c >= 0; --c) write(c);
-    for (int c = 0; c <= cells; ++c)
-      ASSERT_EQ(start[c], std::count_if(key.begin(), key.end(), [&](int k) { return k < c; })) << "cell " << c;
-  }
+TEST(CellStart, OfEachRunOfCellsByItself) {
+  for (const int cells : {1, CellStart::run - 1, CellStart::run, 1000, 32 * CellStart::run})
+    for (const std::vector<int>& key :
+         {std::vector<int>{}, {0}, {cells}, {0, 0, 0, cells}, {3, 3, 500, 500, 500, 501, 999, cells, cells}}) {
+      std::vector<int> start(std::size_t(cells) + 2, -1);
+      const CellStart write{key.data(), int(key.size()), cells, start.data()};
+      for (int k = CellStart::runs(cells) - 1; k >= 0; --k) write(k);
+      for (int c = 0; c <= cells; ++c)
+        ASSERT_EQ(start[c], std::count_if(key.begin(), key.end(), [&](int other) { return other < c; }))
+            << "cell " << c << " of " << cells;
+      ASSERT_EQ(start[cells + 1], -1);
+    }
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 
 #include "solver/backend_array.hh"
 #include "solver/passes.hh"
+#include "solver/rearrangement.hh"
 
 namespace lgiw::test {
 
@@ -30,7 +31,15 @@ class DeviceOnHost {
  public:
   static constexpr bool on_host = false;
   static constexpr int steps_per_check = 16;
-  static double cell_width(double h, int) { return 2 * h * (1 + 1e-6); }
+  template <class T, int D>
+  static Grid<T, D> grid(const double* low, const double* high, double h, double particles) {
+    return Grid<T, D>::of_device(low, high, h, wide_cells() ? -1e9 : particles);
+  }
+  /// Whether devices made from now on take the cells of a domain that is nearly empty.
+  static bool& wide_cells() {
+    static bool so = false;
+    return so;
+  }
 
   explicit DeviceOnHost(unsigned seed = 1) : random_(seed) {}
 
@@ -95,13 +104,16 @@ class DeviceOnHost {
     std::iota(order.data(), order.data() + n, 0);
     std::stable_sort(order.data(), order.data() + n, [&](int a, int b) { return keys[a] < keys[b]; });
     std::sort(keys, keys + n);
-    const CellStart write_start{keys, n, start.data()};
-    for (int c : any_order(cells + 1)) write_start(c);
+    const CellStart write_start{keys, n, cells, start.data()};
+    for (int k : any_order(CellStart::runs(cells))) write_start(k);
   }
-  template <class T>
-  void gather(const Array<T>& to, const Array<T>& from, const Array<int>& order) {
+  void rearrange(std::size_t n, const int* order, const std::vector<Rearrangement>& moves) {
     const Open open;
-    for (int i : any_order(int(from.size()))) to.data()[i] = from.data()[order.data()[i]];
+    for (const Rearrangement& move : moves)
+      move.with_types([&](auto* to, const auto* from) {
+        for (int i : any_order(int(n)))
+          to[i] = std::remove_pointer_t<decltype(to)>(from[move.gathers() ? order[i] : i]);
+      });
   }
   /// How often any such device has sorted a phase.
   static int& sorts() {

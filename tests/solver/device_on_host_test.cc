@@ -57,6 +57,15 @@ TEST(DeviceOnHost, EqualsCpuInDouble3D) { compare(3, NumberType::double_, 1e-9);
 TEST(DeviceOnHost, EqualsCpuInMixed3D) { compare(3, NumberType::mixed, 1e-3); }
 TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-3); }
 
+TEST(DeviceOnHost, EqualsCpuInWideCells) {
+  const double low[3] = {0, 0, 0}, high[3] = {40, 40, 40};
+  EXPECT_EQ((Grid<double, 3>::of_device(low, high, 0.5, 1e3).margin), 1) << "500 cells a particle";
+  EXPECT_EQ((Grid<double, 3>::of_device(low, high, 0.5, 1e5).margin), 2);
+  DeviceOnHost::wide_cells() = true;
+  compare(2, NumberType::double_, 1e-9), compare(3, NumberType::double_, 1e-9);
+  DeviceOnHost::wide_cells() = false;
+}
+
 /// What a scene of twice the particles in the same cells holds more: what 200 M particles need of 80 GB.
 TEST(DeviceOnHost, APlaceInMemoryIsSmall) {
   const Cloud once = cloud({3});
@@ -84,6 +93,35 @@ TEST(DeviceOnHost, ThreadsInAnyOrderDoTheSame) {
       const auto a = on_device(scene.cloud, NumberType::double_, 1), b = on_device(scene.cloud, NumberType::double_, 2);
       a->advance(1e9, 20), b->advance(1e9, 20);
       EXPECT_TRUE(same(*a, *b)) << dimension;
+    }
+}
+
+/// Threads that run side by side as those of a warp do, which compute what they have listed whenever another one is
+/// full; and short lists.
+struct Moody : CudaDevice {
+  static constexpr int list = 5;
+  static bool any_beside(bool mine) {
+    static std::mt19937 others(7);
+    return mine || others() % 3 == 0;
+  }
+};
+/// A thread's sums do not depend on when the threads beside it make it compute.
+TEST(DeviceOnHost, WhatOthersListChangesNothing) {
+  for (int dimension : {2, 3})
+    for (const Scene& scene : scenes(dimension)) {
+      if (scene.cloud.p.cubic_kernel) continue;
+      SCOPED_TRACE(scene.name);
+      const Cloud& c = scene.cloud;
+      const auto alone = on_device(c);
+      std::unique_ptr<Simulation> beside;
+      if (dimension == 2)
+        beside = std::make_unique<ParticleSimulation<DeviceOnHost, Traits<double, double, 2, Wendland, Moody>>>(
+            c.p, c.in, NumberType::double_);
+      else
+        beside = std::make_unique<ParticleSimulation<DeviceOnHost, Traits<double, double, 3, Wendland, Moody>>>(
+            c.p, c.in, NumberType::double_);
+      alone->advance(1e9, 10), beside->advance(1e9, 10);
+      EXPECT_TRUE(same(*alone, *beside)) << dimension;
     }
 }
 

@@ -1,4 +1,6 @@
 // lgiw-run from a particles file to a run file: contents, manners, failures.
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -476,11 +478,18 @@ class Faulty final : public Simulation {
   PhaseBytes bytes() const override { return inner_->bytes(); }
   std::string description() const override { return inner_->description(); }
   std::string device() const override { return inner_->device(); }
+  bool leaves_host_free() const override { return elsewhere_; }
   std::vector<std::string> left_out() const override { return inner_->left_out(); }
+  /// From now on as if it stepped on a device.
+  Faulty& step_elsewhere() {
+    elsewhere_ = true;
+    return *this;
+  }
 
  private:
   std::unique_ptr<Simulation> inner_;
   std::function<void(StepState&)> fault_;
+  bool elsewhere_ = false;
 };
 
 /// Steps for 0.02 s after `time` fail above `share` of the time step.
@@ -543,6 +552,92 @@ TEST_F(Run, AFailedStretchIsTakenAgainWithASmallerTimeStep) {
     if (!std::isnan(a[i]) && !std::isnan(b[i])) {
       EXPECT_NEAR(a[i], b[i], 0.01) << i;
     }
+}
+
+/// As many OpenMP threads as that while it lives.
+class Threads {
+ public:
+  explicit Threads(int count) { omp_set_num_threads(count); }
+  ~Threads() { omp_set_num_threads(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  const int before_ = omp_get_max_threads();
+};
+
+/// Where the outputs of a run are made: between its steps, by one of its threads, or by the host while a device steps.
+enum class Outputs { between, beside, on_host };
+
+/// Runs slide.h5 of the shop with a solver that fails where `fault` says so; the bytes of the run.
+std::string run_with(const Workshop& shop, const std::string& output, Outputs outputs,
+                     const std::function<void(StepState&)>& fault, bool resume = false,
+                     double checkpoint_interval = 1e9) {
+  const ParticleData data = read_particles((shop / "slide.h5").string());
+  Case c = parse_case(data.header.case_text, "slide");
+  c.output.checkpoint_interval = checkpoint_interval;
+  RunOptions options;
+  options.output = (shop / output).string(), options.provenance = false, options.resume = resume;
+  options.wrap = [&](std::unique_ptr<Simulation> solver) {
+    auto faulty = std::make_unique<Faulty>(std::move(solver), fault);
+    if (outputs == Outputs::on_host) faulty->step_elsewhere();
+    return faulty;
+  };
+  const Threads threads(outputs == Outputs::between ? 1 : 3);
+  run_case(c, data, options);
+  EXPECT_EQ(omp_get_max_threads(), outputs == Outputs::between ? 1 : 3) << "all threads are given back";
+  return read_bytes(options.output);
+}
+
+TEST_F(Run, OutputsMadeWhileTheSolverStepsOnAreTheSame) {
+  particles("slide");
+  const auto sound = [](StepState&) {};
+  const std::string bytes = run_with(*shop, "between.h5", Outputs::between, sound);
+  EXPECT_TRUE(run_with(*shop, "beside.h5", Outputs::beside, sound) == bytes);
+  EXPECT_TRUE(run_with(*shop, "on-host.h5", Outputs::on_host, sound) == bytes);
+  // With a checkpoint after every stroke, and stretches that are taken again.
+  const auto failing = [](StepState& st) {
+    if (fails(st, 0.13, 0.3)) st.failed_water = 7;
+  };
+  const std::string again = run_with(*shop, "between-again.h5", Outputs::between, failing, false, 0);
+  EXPECT_TRUE(run_with(*shop, "beside-again.h5", Outputs::beside, failing, false, 0) == again);
+  EXPECT_TRUE(run_with(*shop, "on-host-again.h5", Outputs::on_host, failing, false, 0) == again);
+}
+TEST_F(Run, AKilledRunWhoseOutputsAreMadeMeanwhileGoesOnToTheSame) {
+  particles("slide");
+  const auto sound = [](StepState&) {};
+  const std::string whole = run_with(*shop, "whole.h5", Outputs::between, sound);
+  const auto dying = [](StepState& st) {
+    if (st.time > 0.2) throw std::runtime_error("killed");
+  };
+  for (const Outputs outputs : {Outputs::beside, Outputs::on_host}) {
+    const std::string name = outputs == Outputs::beside ? "beside.h5" : "on-host.h5";
+    const int before = omp_get_max_threads();
+    EXPECT_THROW(run_with(*shop, name, outputs, dying, false, 0), std::runtime_error);
+    EXPECT_EQ(omp_get_max_threads(), before);
+    EXPECT_TRUE(run_with(*shop, name, outputs, sound, true) == whole);
+  }
+}
+TEST_F(Run, AnOutputThatFailsMeanwhileStopsTheRun) {
+  particles("slide");
+  const ParticleData data = read_particles((*shop / "slide.h5").string());
+  // Sound as slow as the water.
+  const Case c = parse_case(data.header.case_text, "slide", {"water.sound_speed=2"});
+  RunOptions options;
+  options.output = (*shop / "soft.h5").string(), options.provenance = false;
+  std::vector<std::string> said;
+  for (const int count : {1, 3}) {
+    const Threads threads(count);
+    options.overwrite = true;
+    try {
+      run_case(c, data, options);
+    } catch (const WorkError& e) {
+      said.push_back(e.what());
+    }
+  }
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_NE(said[0].find("the water is compressed by"), std::string::npos) << said[0];
+  EXPECT_EQ(said[1], said[0]);
 }
 
 TEST_F(Run, AStepThatFailsWhileTheSceneSettlesIsTakenAgainSettling) {
