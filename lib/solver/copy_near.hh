@@ -19,6 +19,26 @@ struct NearBox {
 /// Ranges [first, second) of particles.
 using Ranges = std::vector<std::pair<int, int>>;
 
+/// The tiles of a phase, in the order of their cells: the particles of cells that are not empty, the boxes around them,
+/// and the rows of cells [first, second) that hold everything near. Found once after a sort, for all passes of a step.
+template <class T, int D>
+struct TileTable {
+  static constexpr int most_rows = D == 2 ? 5 : 25;  // a box in a cell is near five slabs along each axis at most
+  int n = 0;
+  int* cell = nullptr;                  // [n]
+  int* row_count = nullptr;             // [n]
+  std::pair<int, int>* rows = nullptr;  // [n][most_rows]
+  NearBox<T, D>* box = nullptr;         // [n]
+};
+/// Of a backend whose passes find their neighbours by themselves.
+template <class T, int D>
+struct NoTiles {
+  const TileTable<T, D>* table() const { return nullptr; }
+  const unsigned char* cells_near() const { return nullptr; }
+  template <class F>
+  void all(F&&) {}
+};
+
 /// Appends the fields of those particles of the ranges that are near the box to to[f] + n, in order; the first D fields
 /// are the places, and index[n], unless it is null, gets the particle's number. Returns the new n. Up to
 /// `widest_lanes` numbers behind it are overwritten.

@@ -85,6 +85,8 @@ struct CudaBackend {
   };
   template <class T>
   using Array = BackendArray<T, Memory>;
+  template <class T, int D>
+  using Tiles = NoTiles<T, D>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {

@@ -95,6 +95,7 @@ struct OpenMpBackend {
   void for_each_pair(const View& own, const F& f, Limits<T>* limits) {
     constexpr bool limiting = !std::is_void_v<std::invoke_result_t<const F&, int>>;
     const int* start = own.start;
+    const auto& tiles = *own.tiles;
     const int cells = f.grid.cells;
     LargestLimits<T> found(*limits);
     prepare_memory();
@@ -112,10 +113,10 @@ struct OpenMpBackend {
 #pragma omp for schedule(dynamic, 1)
         for (int k = 0; k < int(turn.size()); ++k) {
           const int end = begin_of(turn[k] + 1);
-          for (int c = begin_of(turn[k]); c < end; ++c) {
-            if (start[c] == start[c + 1]) continue;
-            near.look(c);
-            for (int i = start[c]; i < start[c + 1]; ++i)
+          int t = int(std::lower_bound(tiles.cell, tiles.cell + tiles.n, begin_of(turn[k])) - tiles.cell);
+          for (; t < tiles.n && tiles.cell[t] < end; ++t) {
+            near.look(tiles, t);
+            for (int i = start[tiles.cell[t]]; i < start[tiles.cell[t] + 1]; ++i)
               if constexpr (limiting)
                 found.add(pass(i));
               else
@@ -188,12 +189,69 @@ struct OpenMpBackend {
       for (int i = share(n, me); i < share(n, me + 1); ++i) order[mine[key[i]]++] = i;
     }
   }
-  /// Which cells a phase is near to (NearCells::mark); start[c] is its first particle in cell c.
+  /// What all passes want to know of a phase after a sort: its tiles, and which cells it is near to (NearCells::mark).
   template <class T, int D>
-  void mark_cells(const Grid<T, D>& grid, T h, const Array<int>& start, Array<unsigned char>& near) {
-    if (near.size() != std::size_t(grid.cells)) near = Array<unsigned char>(std::size_t(grid.cells));
-    marks_.resize(near.size());
-    NearCells<Machine, T, D>(grid, h).mark(start.data(), near.data(), marks_.data());
+  class Tiles {
+   public:
+    const TileTable<T, D>* table() const { return &table_; }
+    const unsigned char* cells_near() const { return near_.data(); }
+    template <class F>
+    void all(F&& f) {
+      f(cell_, "tiles"), f(row_count_, "rows of tiles"), f(rows_, "cells near tiles"), f(box_, "boxes of tiles");
+      f(near_, "cells near the phase");
+    }
+
+   private:
+    friend OpenMpBackend;
+    /// n of them, with something to spare where there were fewer so far.
+    void hold(int n) {
+      if (std::size_t(n) > cell_.size()) {
+        const std::size_t room = std::size_t(n) + std::size_t(n) / 8;
+        cell_ = Array<int>(room), row_count_ = Array<int>(room), box_ = Array<NearBox<T, D>>(room);
+        rows_ = Array<std::pair<int, int>>(room * std::size_t(TileTable<T, D>::most_rows));
+      }
+      table_ = {n, cell_.data(), row_count_.data(), rows_.data(), box_.data()};
+    }
+
+    TileTable<T, D> table_;
+    Array<int> cell_, row_count_;
+    Array<std::pair<int, int>> rows_;
+    Array<NearBox<T, D>> box_;
+    Array<unsigned char> near_;
+  };
+  /// x: where the particles of the phase are; start[c] is the first in cell c.
+  template <class T, int D>
+  void find_tiles(const Grid<T, D>& grid, T h, const T* const* x, const Array<int>& start, Tiles<T, D>& tiles) {
+    const NearCells<Machine, T, D> cells(grid, h);
+    if (tiles.near_.size() != std::size_t(grid.cells)) tiles.near_ = Array<unsigned char>(std::size_t(grid.cells));
+    marks_.resize(tiles.near_.size());
+    cells.mark(start.data(), tiles.near_.data(), marks_.data());
+
+    // Each thread looks through a share of the cells.
+    const int* const first = start.data();
+    TileTable<T, D>& table = tiles.table_;
+#pragma omp parallel
+    {
+      const int threads = omp_get_num_threads(), me = omp_get_thread_num();
+      const auto share = [&](int k) { return int(int64_t(grid.cells) * k / threads); };
+#pragma omp single
+      counts_.assign(std::size_t(threads) + 1, 0);
+      int mine = 0;
+      for (int c = share(me); c < share(me + 1); ++c) mine += first[c + 1] > first[c];
+      counts_[std::size_t(me) + 1] = mine;
+#pragma omp barrier
+#pragma omp single
+      {
+        for (int k = 0; k < threads; ++k) counts_[std::size_t(k) + 1] += counts_[std::size_t(k)];
+        tiles.hold(counts_[std::size_t(threads)]);
+      }
+      int at = counts_[std::size_t(me)];
+      for (int c = share(me); at < counts_[std::size_t(me) + 1]; ++c)
+        if (first[c + 1] > first[c]) table.cell[at++] = c;
+#pragma omp barrier
+#pragma omp for schedule(static)
+      for (int t = 0; t < table.n; ++t) cells.find_tile(table, t, x, first[table.cell[t]], first[table.cell[t] + 1]);
+    }
   }
   /// Carries out moves of n values each, those that gather by `order`. One parallel region for all of them: to begin
   /// and end one takes as long as to gather a field of 20,000 values.
@@ -218,26 +276,21 @@ struct OpenMpBackend {
       }
     }
   }
-  /// A thread takes a few hundred particles at a time, whole cells.
+  /// A thread takes a few hundred particles at a time, whole tiles.
   template <class View, class F, class Run>
   void over_tiles(const View& own, const F& f, const Run& run) {
     const int* start = own.start;
-    const int cells = f.grid.cells, active = start[cells], threads = omp_get_max_threads();
-    const int share = std::clamp(active / (16 * threads), 64, 512), shares = (active + share - 1) / share;
+    const auto& tiles = *own.tiles;
+    const int active = start[f.grid.cells], share = std::clamp(tiles.n / (16 * omp_get_max_threads()), 4, 32);
     prepare_memory();
 #pragma omp parallel
     {
       F pass = f;
       Neighbourhood<typename F::Types, Tile> near(pass, memory_[omp_get_thread_num()]);
-#pragma omp for schedule(dynamic, 1) nowait
-      for (int s = 0; s < shares; ++s) {
-        const int end = std::min(active, (s + 1) * share);
-        int c = int(std::lower_bound(start, start + cells, s * share) - start);
-        for (; c < cells && start[c] < end; ++c) {
-          if (start[c] == start[c + 1]) continue;
-          near.look(c, own.x, start[c], start[c + 1]);
-          for (int i = start[c]; i < start[c + 1]; ++i) run(pass, i);
-        }
+#pragma omp for schedule(dynamic, share) nowait
+      for (int t = 0; t < tiles.n; ++t) {
+        near.look(tiles, t);
+        for (int i = start[tiles.cell[t]]; i < start[tiles.cell[t] + 1]; ++i) run(pass, i);
       }
       near.clear();
 #pragma omp for schedule(static) nowait

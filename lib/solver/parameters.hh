@@ -9,6 +9,7 @@
 #include "physics/soil.hh"
 #include "physics/time_step.hh"
 #include "physics/water.hh"
+#include "solver/copy_near.hh"
 #include "solver/grid.hh"
 #include "solver/machine.hh"
 #include "solver/setup.hh"
@@ -160,6 +161,7 @@ struct WaterView {
   int n = 0;
   const int* start = nullptr;                 // [cells + 1]
   const unsigned char* cells_near = nullptr;  // [cells] 0: no particle of this phase is near; null: not known
+  const TileTable<T, D>* tiles = nullptr;     // on the CPU
   const T* x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
@@ -183,6 +185,7 @@ struct SoilView {
   int n = 0;
   const int* start = nullptr;
   const unsigned char* cells_near = nullptr;
+  const TileTable<T, D>* tiles = nullptr;  // on the CPU
   const T* x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
@@ -207,6 +210,7 @@ struct WallView {
   int n = 0;
   const int* start = nullptr;
   const unsigned char* cells_near = nullptr;
+  const TileTable<T, D>* tiles = nullptr;  // on the CPU
   const T* x[D] = {};
   const T* normal[D] = {};
   const T* weight = nullptr;    // V_b / dp^D

@@ -67,6 +67,7 @@ class ParticleSimulation final : public Simulation {
   static constexpr bool two_positions = !std::is_same_v<T, P>;
   template <class U>
   using Array = typename Backend::template Array<U>;
+  using Tiles = typename Backend::template Tiles<T, D>;
 
   /// Where a sort gathers to before the arrays are swapped.
   struct Spare {
@@ -96,7 +97,7 @@ class ParticleSimulation final : public Simulation {
     Array<T> x[D], v[D], a[D], excess, excess_next, density_rate, term, v_previous[D], excess_previous, shift[D];
     Array<unsigned> id;
     Array<int> key, start;
-    Array<unsigned char> cells_near;
+    Tiles tiles;
     /// Fields that follow the particles through a sort; the others are recomputed before they are read.
     template <class F>
     void carried(F&& f) {
@@ -111,8 +112,8 @@ class ParticleSimulation final : public Simulation {
         for (auto& q : x) f(q, "rounded position");
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : shift) f(q, "shifting");
-      f(excess_next, "next density"), f(density_rate, "density rate"), f(key, "cell"), f(start, "cell starts"),
-          f(cells_near, "cells near water");
+      f(excess_next, "next density"), f(density_rate, "density rate"), f(key, "cell"), f(start, "cell starts");
+      tiles.all(f);
     }
   };
   struct Soil {
@@ -122,7 +123,7 @@ class ParticleSimulation final : public Simulation {
         stress_previous[S];
     Array<unsigned> id;
     Array<int> key, start;
-    Array<unsigned char> cells_near;
+    Tiles tiles;
     template <class F>
     void carried(F&& f) {
       for (auto& q : position) f(q, "position");
@@ -140,14 +141,14 @@ class ParticleSimulation final : public Simulation {
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : stress_next) f(q, "next stress");
       f(image_term, "image pressure"), f(image_excess, "image density"), f(key, "cell"), f(start, "cell starts");
-      f(cells_near, "cells near soil");
+      tiles.all(f);
     }
   };
   struct Wall {
     Array<T> x[D], normal[D], weight, slip, friction, term, excess, v[D], stress[S];
     Array<unsigned> id;
     Array<int> start;
-    Array<unsigned char> cells_near;
+    Tiles tiles;
     template <class F>
     void all(F&& f) {
       for (auto& q : x) f(q, "position");
@@ -156,7 +157,8 @@ class ParticleSimulation final : public Simulation {
           f(excess, "image density");
       for (auto& q : v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
-      f(id, "id"), f(start, "cell starts"), f(cells_near, "cells near walls");
+      f(id, "id"), f(start, "cell starts");
+      tiles.all(f);
     }
   };
   /// Particles of the bodies that move as prescribed; few, and sorted anew in every step.
@@ -167,7 +169,7 @@ class ParticleSimulation final : public Simulation {
     Array<int> body;
     Array<unsigned> id;
     Array<int> key, start;
-    Array<unsigned char> cells_near;
+    Tiles tiles;
     Array<MotionRow> rows;
     Array<int> first_row;
     Array<double> pivot, ahead;
@@ -187,7 +189,7 @@ class ParticleSimulation final : public Simulation {
       f(term, "image pressure"), f(excess, "image density");
       for (auto& q : image_v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
-      f(key, "cell"), f(start, "cell starts"), f(cells_near, "cells near bodies"), f(rows, "motion");
+      f(key, "cell"), f(start, "cell starts"), f(rows, "motion"), tiles.all(f);
       f(first_row, "first rows"), f(pivot, "pivots"), f(ahead, "directions"), f(now, "places");
     }
   };
@@ -529,13 +531,24 @@ class ParticleSimulation final : public Simulation {
     for (unsigned i : id) ++start[key[i] + 1];
     for (int c = 0; c < grid_.cells; ++c) start[c + 1] += start[c];
     put(wall_.start, start);
-    mark_cells(wall_);
     fill_common(in, id, wall_, wall_.v);
+    find_tiles(wall_, wall_.x);
   }
-  /// Where a pass need not look for this phase: most walls of a dry bank, water far from the slide.
+  /// Before any pass looks for or at a phase whose particles are at x.
+  template <class Phase, class U>
+  void find_tiles([[maybe_unused]] Phase& phase, [[maybe_unused]] const Array<U>* x) {
+    if constexpr (Tr::tiles) {
+      const T* places[D];
+      for (int k = 0; k < D; ++k) places[k] = x[k].data();
+      backend_.find_tiles(grid_, p_.h, places, phase.start, phase.tiles);
+    }
+  }
   template <class Phase>
-  void mark_cells([[maybe_unused]] Phase& phase) {
-    if constexpr (Tr::tiles) backend_.mark_cells(grid_, p_.h, phase.start, phase.cells_near);
+  void find_tiles(Phase& phase) {
+    if constexpr (two_positions || std::is_same_v<Phase, Bodies>)
+      find_tiles(phase, phase.x);
+    else
+      find_tiles(phase, phase.position);
   }
   void fill_bodies(const InitialParticles& in) {
     const std::vector<unsigned> id = wall_ids(in, true);
@@ -663,8 +676,8 @@ class ParticleSimulation final : public Simulation {
   /// What is made of the particles in their sorted order before any pass reads them.
   template <class Phase>
   void follow_order(Phase& phase) {
-    mark_cells(phase);
     backend_.rearrange(phase.key.size(), nullptr, rounding(phase));
+    find_tiles(phase);
   }
   /// Positions as the passes read them.
   template <class Phase>
@@ -692,7 +705,7 @@ class ParticleSimulation final : public Simulation {
     });
     for (const Rearrangement& rounded : rounding(phase)) moves.push_back(rounded);
     backend_.rearrange(phase.key.size(), spare.order.data(), moves);
-    mark_cells(phase);
+    find_tiles(phase);
   }
 
   // Plumbing.
@@ -823,8 +836,9 @@ class ParticleSimulation final : public Simulation {
       w.shift[k] = water_.shift[k].data();
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
-    w.start = water_.start.data(), w.cells_near = water_.cells_near.data(), w.excess = water_.excess.data(),
-    w.excess_next = water_.excess_next.data(), w.density_rate = water_.density_rate.data();
+    w.start = water_.start.data(), w.cells_near = water_.tiles.cells_near(), w.tiles = water_.tiles.table(),
+    w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data(),
+    w.density_rate = water_.density_rate.data();
     w.term = water_.term.data(), w.id = water_.id.data(), w.key = water_.key.data();
     w.excess_previous = water_.excess_previous.data();
     return w;
@@ -845,8 +859,8 @@ class ParticleSimulation final : public Simulation {
       s.stress[c] = soil_.stress[c].data(), s.stress_next[c] = soil_.stress_next[c].data();
       s.artificial[c] = soil_.artificial[c].data(), s.stress_previous[c] = soil_.stress_previous[c].data();
     }
-    s.start = soil_.start.data(), s.cells_near = soil_.cells_near.data(), s.adps = soil_.adps.data(),
-    s.id = soil_.id.data(), s.key = soil_.key.data();
+    s.start = soil_.start.data(), s.cells_near = soil_.tiles.cells_near(), s.tiles = soil_.tiles.table(),
+    s.adps = soil_.adps.data(), s.id = soil_.id.data(), s.key = soil_.key.data();
     s.image_term = soil_.image_term.data(), s.image_excess = soil_.image_excess.data();
     return s;
   }
@@ -857,7 +871,7 @@ class ParticleSimulation final : public Simulation {
     for (int k = 0; k < D; ++k)
       b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
     for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
-    b.start = wall_.start.data(), b.cells_near = wall_.cells_near.data();
+    b.start = wall_.start.data(), b.cells_near = wall_.tiles.cells_near(), b.tiles = wall_.tiles.table();
     b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
     b.friction = wall_.friction.data();
     b.term = wall_.term.data(), b.excess = wall_.excess.data(), b.id = wall_.id.data();
@@ -875,7 +889,8 @@ class ParticleSimulation final : public Simulation {
       b.arm[k] = m.arm[k].data(), b.own_normal[k] = m.own_normal[k].data();
     }
     for (int c = 0; c < S; ++c) b.stress[c] = m.stress[c].data();
-    b.start = m.start.data(), b.cells_near = m.cells_near.data(), b.weight = m.weight.data(), b.slip = m.slip.data();
+    b.start = m.start.data(), b.cells_near = m.tiles.cells_near(), b.tiles = m.tiles.table(),
+    b.weight = m.weight.data(), b.slip = m.slip.data();
     b.friction = m.friction.data();
     b.term = m.term.data(), b.excess = m.excess.data(), b.id = m.id.data();
     b.body = m.body.data(), b.key = m.key.data();

@@ -23,8 +23,7 @@ template <class Bytes>
 struct TileMemory {
   static constexpr int phases = 4;
   Bytes copies;            // grows to what the fullest tile needs
-  Ranges rows;             // of cells
-  Ranges ranges[phases];   // of the particles in them
+  Ranges ranges[phases];   // of the particles in the rows of cells near it
   std::vector<int> index;  // of the copied particles, where sums go back to them
 
   void* take(std::size_t bytes) {
@@ -43,6 +42,7 @@ class NearCells {
   }
 
   T reach() const { return reach_; }
+
   NearBox<T, D> box_of(const T* const* x, int begin, int end) const {
     NearBox<T, D> box;
     for (int k = 0; k < D; ++k) {
@@ -55,24 +55,30 @@ class NearCells {
     box.reach2 = reach_ * reach_;
     return box;
   }
-  /// Ranges of cells [first, last) from number `from` on that hold everything near the box there.
-  void find_rows(const NearBox<T, D>& box, int from, Ranges& rows) const {
-    rows.clear();
+  /// Writes the box of tile t, of the particles [begin, end) at x, and its rows.
+  void find_tile(const TileTable<T, D>& tiles, int t, const T* const* x, int begin, int end) const {
+    const NearBox<T, D> box = tiles.box[t] = box_of(x, begin, end);
+    std::pair<int, int>* const rows = tiles.rows + std::ptrdiff_t(t) * tiles.most_rows;
+    int count = 0;
     const Slabs along(*this, box, grid_.order[0]), across(*this, box, grid_.order[1]);
     const auto in_plane = [&](double square, int before) {
       for (int b = across.first; b <= across.last; b += abreast) {
         // Their roots beside each other: one after the other they would take as long as the copies.
         double rest[abreast];
-        int begin[abreast], end[abreast];
+        int first[abreast], last[abreast];
 #pragma omp simd
         for (int k = 0; k < abreast; ++k) {
           rest[k] = square - across.square(b + k);
           const double chord = std::sqrt(rest[k] > 0 ? rest[k] : 0.0);
-          begin[k] = along.held(along.low - chord), end[k] = along.held(along.high + chord) + 1;
+          first[k] = along.held(along.low - chord), last[k] = along.held(along.high + chord) + 1;
         }
         for (int k = 0; k < abreast && b + k <= across.last; ++k) {
+          if (rest[k] <= 0) continue;
           const int row = before + (b + k) * across.stride;
-          if (rest[k] > 0 && row + end[k] > from) rows.push_back({std::max(row + begin[k], from), row + end[k]});
+          if (count < tiles.most_rows)
+            rows[count++] = {row + first[k], row + last[k]};
+          else
+            rows[count - 1].second = row + last[k];  // more cells than need be, none too few
         }
       }
     };
@@ -81,11 +87,12 @@ class NearCells {
       in_plane(square, 0);
     } else {
       const Slabs slowest(*this, box, grid_.order[2]);
-      for (int c = std::max(slowest.first, from / slowest.stride); c <= slowest.last; ++c) {
+      for (int c = slowest.first; c <= slowest.last; ++c) {
         const double rest = square - slowest.square(c);
         if (rest > 0) in_plane(rest, c * slowest.stride);
       }
     }
+    tiles.row_count[t] = count;
   }
   /// Sets near[c] to 1 for every cell c within whose reach a phase has particles (the first in cell b is start[b]), to
   /// 0 for most others; `spare` is as long. A pass skips a phase where a tile lies in a cell of the latter.
@@ -186,12 +193,14 @@ struct CopiedPhase {
     slot[fields] = &field;
     from[fields++] = of;
   }
-  /// Finds the ranges of particles in rows of cells, but for empty ones, and counts the particles.
-  static std::size_t particles_in(const Ranges& rows, const int* start, Ranges& ranges) {
+  /// Finds the ranges of particles near a tile, in cells from number `from` on, but for empty ones, and counts them.
+  static std::size_t particles_near(const TileTable<T, D>& tiles, int t, int from, const int* start, Ranges& ranges) {
     ranges.clear();
     std::size_t count = 0;
-    for (const auto& [first, last] : rows) {
-      const int begin = start[first], end = start[last];
+    const std::pair<int, int>* const rows = tiles.rows + std::ptrdiff_t(t) * tiles.most_rows;
+    for (int k = 0; k < tiles.row_count[t]; ++k) {
+      if (rows[k].second <= from) continue;
+      const int begin = start[std::max(rows[k].first, from)], end = start[rows[k].second];
       if (begin == end) continue;
       ranges.push_back({begin, end});
       count += std::size_t(end - begin);
@@ -253,19 +262,19 @@ class Neighbourhood {
   void clear() {
     for (int k = 0; k < phases_; ++k) *phase_[k].n = 0;
   }
-  /// Copies what lies near the particles [begin, end) of `cell` at x.
-  void look(int cell, const T* const* x, int begin, int end) {
+  /// Copies what lies near a tile.
+  void look(const TileTable<T, D>& tiles, int t) {
     clear();
+    const int cell = tiles.cell[t];
     const auto absent = [&](const Phase& phase) { return phase.cells_near && !phase.cells_near[cell]; };
     if (std::all_of(phase_.begin(), phase_.begin() + phases_, absent)) return;
-    const NearBox<T, D> box = near_.box_of(x, begin, end);
-    near_.find_rows(box, 0, memory_.rows);
+    const NearBox<T, D>& box = tiles.box[t];
     std::size_t room[phases], total = 0;
     for (int k = 0; k < phases_; ++k) {
       room[k] = 0;
       if (absent(phase_[k])) continue;
       room[k] =
-          Phase::whole_vectors(Phase::particles_in(memory_.rows, phase_[k].start, memory_.ranges[k])) + widest_lanes;
+          Phase::whole_vectors(Phase::particles_near(tiles, t, 0, phase_[k].start, memory_.ranges[k])) + widest_lanes;
       total += room[k] * phase_[k].fields;
     }
     T* to = static_cast<T*>(memory_.take(total * sizeof(T)));
@@ -315,13 +324,12 @@ class PairNeighbourhood {
     phase_.add_reciprocal(field, of, offset);
   }
   const NearCells<typename Tr::Machine, T, D>& cells() const { return near_; }
-  /// Copies what lies near the particles of `cell`.
-  void look(int cell) {
-    const int begin = phase_.start[cell], end = phase_.start[cell + 1];
-    const NearBox<T, D> box = near_.box_of(phase_.from, begin, end);
-    near_.find_rows(box, cell + 1, memory_.rows);
+  /// Copies what lies near a tile.
+  void look(const TileTable<T, D>& tiles, int t) {
+    const int cell = tiles.cell[t], begin = phase_.start[cell], end = phase_.start[cell + 1];
+    const NearBox<T, D>& box = tiles.box[t];
     const std::size_t candidates =
-        std::size_t(end - begin) + Phase::particles_in(memory_.rows, phase_.start, memory_.ranges[0]);
+        std::size_t(end - begin) + Phase::particles_near(tiles, t, cell + 1, phase_.start, memory_.ranges[0]);
     const std::size_t room = Phase::whole_vectors(candidates) + widest_lanes;
     T* to = static_cast<T*>(memory_.take(room * (phase_.fields + sums_.fields) * sizeof(T)));
     if (memory_.index.size() < room) memory_.index.resize(room);

@@ -49,6 +49,8 @@ class DeviceOnHost {
   };
   template <class T>
   using Array = BackendArray<T, Memory>;
+  template <class T, int D>
+  using Tiles = NoTiles<T, D>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {

@@ -71,6 +71,60 @@ TEST(Tiles, MarkAllCellsWithinReach) {
   expect_all_pairs_marked<3>();
 }
 
+/// The rows of a tile hold every particle within reach of its box, also where particles lie beyond the grid, whose
+/// outer cells they are counted to.
+template <int D>
+void expect_rows_hold_what_is_near() {
+  const std::array<double, 3> size{8, 5, 4};
+  Cells<D> cells(size);
+  auto x = anywhere<D>(4000, {8, 5, 4}, 3);
+  for (std::size_t i = 0; i < 200; ++i) x[i].c[i % D] = i % 2 ? float(size[i % D]) + 0.4f : -0.4f;
+  std::sort(x.begin(), x.end(), [&](const auto& a, const auto& b) { return cells.grid.cell(a) < cells.grid.cell(b); });
+  cells.mark(x);
+  std::vector<float> place[D];
+  const float* places[D];
+  for (int k = 0; k < D; ++k) {
+    for (const auto& p : x) place[k].push_back(p.c[k]);
+    places[k] = place[k].data();
+  }
+  const float reach2 = cells.near.reach() * cells.near.reach();
+  int tiles = 0, near = 0, beyond = 0;
+  for (int c = 0; c < cells.grid.cells; ++c) {
+    const int begin = cells.start[std::size_t(c)], end = cells.start[std::size_t(c) + 1];
+    if (begin == end) continue;
+    int row_count = -1;
+    std::pair<int, int> rows[TileTable<float, D>::most_rows];
+    NearBox<float, D> box;
+    cells.near.find_tile(TileTable<float, D>{1, &c, &row_count, rows, &box}, 0, places, begin, end);
+    ASSERT_GT(row_count, 0);
+    ASSERT_LE(row_count, (TileTable<float, D>::most_rows));
+    for (int k = 1; k < row_count; ++k) ASSERT_GE(rows[k].first, rows[k - 1].second) << "a cell in two rows";
+    ++tiles;
+    for (const auto& p : x) {
+      float d2 = 0;
+      for (int k = 0; k < D; ++k) {
+        const float d = std::max({box.low[k] - p.c[k], p.c[k] - box.high[k], 0.0f});
+        d2 += d * d;
+      }
+      const int cell = cells.grid.cell(p);
+      const bool held =
+          std::any_of(rows, rows + row_count, [&](const auto& r) { return cell >= r.first && cell < r.second; });
+      if (d2 < reach2) {
+        ++near;
+        ASSERT_TRUE(held) << "cell " << cell << " of tile " << c;
+      } else {
+        beyond += !held;
+      }
+    }
+  }
+  EXPECT_GT(tiles, 50);
+  EXPECT_GT(beyond, near) << "rows that hold everything";
+}
+TEST(Tiles, RowsHoldWhatIsNear) {
+  expect_rows_hold_what_is_near<2>();
+  expect_rows_hold_what_is_near<3>();
+}
+
 template <int D>
 std::ptrdiff_t marked_around_one() {
   Cells<D> cells({9, 9, 9});
