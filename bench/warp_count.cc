@@ -47,9 +47,6 @@ struct Scene {
     for (int k = 0; k < CellStart::runs(grid.cells); ++k)
       CellStart{key.data(), int(x.size()), grid.cells, start.data()}(k);
   }
-  void row(int i, int k, int& begin, int& end) const {
-    grid.row(start.data(), grid.cell(x[std::size_t(i)]), k, begin, end);
-  }
   bool near(int i, int j) const {
     const Place r = x[std::size_t(i)] - x[std::size_t(j)];
     return double(dot(r, r)) < 4 * h * h * reach_in_supports * reach_in_supports;
@@ -68,11 +65,16 @@ struct Count {
 /// One warp from particle `first` on. list 0: whatever is near is computed at once.
 void count(const Scene& s, int first, int list, Count& sum) {
   std::array<int, warp> j, end, listed{};
+  std::array<Grid<float, 3>::Row, warp> row;
+  for (int lane = 0; lane < warp; ++lane) row[lane] = s.grid.first_row(s.grid.cell(s.x[std::size_t(first + lane)]));
   const int rows = s.grid.rows();
   sum.warps += 1;
   for (int k = 0; k <= rows; ++k) {
     j.fill(0), end.fill(0);
-    for (int lane = 0; lane < warp && k < rows; ++lane) s.row(first + lane, k, j[lane], end[lane]);
+    for (int lane = 0; lane < warp && k < rows; ++lane) {
+      s.grid.particles(s.start.data(), row[lane], j[lane], end[lane]);
+      s.grid.to_next(row[lane]);
+    }
     for (;;) {
       for (bool more = true; more;) {  // an iteration of the loop over candidates, for all lanes
         bool computes = false;

@@ -61,15 +61,25 @@ struct Grid {
   }
   static constexpr double most_cells_a_particle = 16;  // 64 bytes a phase
 
-  /// Rows of 2 margin + 1 cells around a cell.
+  /// The rows of 2 margin + 1 cells around a cell, of which there are rows(), one after the other.
+  struct Row {
+    int middle;      // cell
+    int beside = 0;  // rows before it in its plane
+  };
   LGIW_FN int rows() const { return D == 2 ? 2 * margin + 1 : (2 * margin + 1) * (2 * margin + 1); }
-  /// Particles [begin, end) in the k-th of them; `start` has cells + 1 entries.
-  LGIW_FN void row(const int* start, int cell, int k, int& begin, int& end) const {
-    const int side = 2 * margin + 1;
-    const int c =
-        cell + (k % side - margin) * stride[order[1]] + (D == 2 ? 0 : (k / side - margin) * stride[order[D - 1]]);
-    begin = start[c - margin];
-    end = start[c + margin + 1];
+  LGIW_FN Row first_row(int cell) const {
+    return {cell - margin * (stride[order[1]] + (D == 2 ? 0 : stride[order[D - 1]]))};
+  }
+  LGIW_FN void to_next(Row& row) const {
+    row.middle += stride[order[1]];
+    if (++row.beside <= 2 * margin) return;
+    row.beside = 0;
+    row.middle += stride[order[D - 1]] - (2 * margin + 1) * stride[order[1]];
+  }
+  /// Its particles [begin, end); `start` has cells + 1 entries.
+  LGIW_FN void particles(const int* start, const Row& row, int& begin, int& end) const {
+    begin = start[row.middle - margin];
+    end = start[row.middle + margin + 1];
   }
 };
 

@@ -23,7 +23,8 @@ struct FinishStep {
   StepState* state;
   bool advance;
   LGIW_FN void operator()(int) const {
-    if (advance && (!(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX)) return;
+    if (advance && (state->failed_water & state->failed_soil) != UINT32_MAX) state->stopped = 1;
+    if (advance && (!(state->time < state->target) || state->stopped)) return;
     finish_step(parameters, *limits, advance, *state);
   }
 };

@@ -111,11 +111,12 @@ struct Pass {
     const int rows = grid.rows();
     const T reach = T(2 * reach_in_supports) * parameters.h, far2 = reach * reach;
     NearList<Machine> list;
+    auto row = grid.first_row(cell);
     int n = 0;
     LGIW_ROLLED
-    for (int k = 0; k <= rows; ++k) {  // the last one computes what is left
+    for (int k = 0; k <= rows; ++k, grid.to_next(row)) {  // the last one computes what is left
       int j = 0, end = 0;
-      if (k < rows) grid.row(view.start, cell, k, j, end);
+      if (k < rows) grid.particles(view.start, row, j, end);
       for (;;) {
         LGIW_ROLLED
         for (; j < end && n < list.size; ++j) {
@@ -161,11 +162,9 @@ struct Pass {
       return wall;
   }
 
-  /// True once the target time is reached or a particle has failed: what a device still has queued then changes
-  /// nothing.
-  LGIW_FN bool idle() const {
-    return !(state->time < state->target) || (state->failed_water & state->failed_soil) != UINT32_MAX;
-  }
+  /// True once the target time is reached or a step has failed: what a device still has queued then changes nothing. Not
+  /// within the step that fails, of which all particles are to be looked at: the smallest id is told.
+  LGIW_FN bool idle() const { return !(state->time < state->target) || state->stopped; }
   /// Part of a step that a device still had queued: the forces of the last step remain, which depend on its length
   /// where walls rub. A host queues none.
   LGIW_FN bool superfluous() const {

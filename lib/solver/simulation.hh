@@ -27,6 +27,7 @@ struct StepState {
   int32_t euler_countdown = 0;  // Verlet: steps left until the next Euler step
   int32_t settling = 0;         // Settling
   int32_t limit = 0;            // what limited dt: 0 acoustic, 1 force, 2 viscous, 3 diffusive
+  int32_t stopped = 0;          // 1: a step has failed, and what is still queued changes nothing
   double smallest_dt = 1e300;   // s, of the steps taken
   int64_t limited[4] = {};      // steps taken, by what limited them
   int32_t lost_water = 0, lost_soil = 0;

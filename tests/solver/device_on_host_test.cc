@@ -54,8 +54,8 @@ void compare(int dimension, NumberType type, double tolerance) {
 }
 TEST(DeviceOnHost, EqualsCpuInDouble2D) { compare(2, NumberType::double_, 1e-9); }
 TEST(DeviceOnHost, EqualsCpuInDouble3D) { compare(3, NumberType::double_, 1e-9); }
-TEST(DeviceOnHost, EqualsCpuInMixed3D) { compare(3, NumberType::mixed, 1e-3); }
-TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-3); }
+TEST(DeviceOnHost, EqualsCpuInMixed3D) { compare(3, NumberType::mixed, 1e-4); }
+TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-4); }
 
 TEST(DeviceOnHost, EqualsCpuInWideCells) {
   const double low[3] = {0, 0, 0}, high[3] = {40, 40, 40};
