@@ -334,6 +334,7 @@ class Runner {
       st = simulation_->advance(target, shared ? 1 : batch_);
       const double seconds = elapsed() - since;
       steps_taken_ += st.step - before, seconds_taken_ += seconds;
+      if (!shared && st.step > before) step_seconds_ = seconds / double(st.step - before);
       if (failed(st)) {
         go_back(st);
         return false;
@@ -463,13 +464,19 @@ class Runner {
     if (measured) extremes_["momentum_residual_step"] = double(output_.at.step);
     output_.momentum_residual = measured ? momentum_residual() : extremes_["last_momentum_residual"];
     ++outputs_;
-    const int for_output = simulation_->leaves_host_free() ? threads_ : std::max(1, threads_ / 8);
-    if (for_output == threads_ && !simulation_->leaves_host_free()) return make_output();
-    output_being_made_ = std::async(std::launch::async, [this, for_output] {
-      omp_set_num_threads(for_output);
+    if (simulation_->leaves_host_free()) return make_output_beside(threads_);
+    const int for_output = std::max(1, threads_ / 8), for_steps = threads_ - for_output;
+    // A step that has begun with fewer threads ends with them, however soon the output is done. Where that takes longer
+    // than half of an output, all threads make it between two steps.
+    if (for_steps == 0 || step_seconds_ * for_output / for_steps > 0.5 * output_seconds_) return make_output();
+    make_output_beside(for_output);
+    omp_set_num_threads(for_steps);
+  }
+  void make_output_beside(int threads) {
+    output_being_made_ = std::async(std::launch::async, [this, threads] {
+      omp_set_num_threads(threads);
       make_output();
     });
-    if (!simulation_->leaves_host_free()) omp_set_num_threads(threads_ - for_output);
   }
   /// Before anything that an output makes is looked at or changed: the run file, maxima and extremes. Throws what went
   /// wrong with it.
@@ -488,6 +495,11 @@ class Runner {
     return false;
   }
   void make_output() {
+    const double begin = elapsed();
+    write_output();
+    output_seconds_ = elapsed() - begin;
+  }
+  void write_output() {
     ParticleState& s = output_.state;
     const StepState& st = output_.at;
     Frame& frame = output_.frame;
@@ -790,6 +802,7 @@ class Runner {
   static constexpr int64_t steps_between_kept = 500;   // a copy costs the time of a few steps on a device
   static constexpr int steps_between_residuals = 500;  // each costs half of one
   static constexpr int most_failures = 10;
+  double step_seconds_ = 0, output_seconds_ = 0;  // of the last with all threads, and of the last
   const int threads_ = omp_get_max_threads();
   int64_t outputs_ = 0, batch_ = 1, steps_taken_ = 0;
   Clock::time_point start_ = Clock::now();

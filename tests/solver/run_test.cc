@@ -611,7 +611,7 @@ TEST_F(Run, AKilledRunWhoseOutputsAreMadeMeanwhileGoesOnToTheSame) {
     if (st.time > 0.2) throw std::runtime_error("killed");
   };
   for (const Outputs outputs : {Outputs::beside, Outputs::on_host}) {
-    const std::string name = outputs == Outputs::beside ? "beside.h5" : "on-host.h5";
+    const std::string name = outputs == Outputs::beside ? "killed-beside.h5" : "killed-on-host.h5";
     const int before = omp_get_max_threads();
     EXPECT_THROW(run_with(*shop, name, outputs, dying, false, 0), std::runtime_error);
     EXPECT_EQ(omp_get_max_threads(), before);
