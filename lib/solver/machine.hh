@@ -28,7 +28,7 @@ struct Cpu {
 struct CudaDevice {
   static constexpr bool tiles = false;
   static constexpr int block = 128;  // threads
-  /// Particles that a thread finds before it computes them (Pass::for_each_near): 16 KiB of shared memory a block.
+  /// Particles that a thread finds before it computes them (Pass::for_each_listed): 16 KiB of shared memory a block.
   static constexpr int list = 32;
   /// True if it is for any of the threads that run side by side. What follows from it must be right for each of them,
   /// whatever the others say: which they are is left to the device.
