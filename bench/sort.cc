@@ -30,7 +30,7 @@ void sort(benchmark::State& state, bool in_order) {
   const Backend::Array<int> keys(n), order(n), start(cells + 1);
   backend.upload(keys, key.data());
   for (auto _ : state) {
-    backend.sort_by_cell(keys, cells, order, start);
+    backend.sort_by_cell(keys, cells, order.data(), start, nullptr, nullptr);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * n);

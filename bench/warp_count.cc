@@ -1,7 +1,7 @@
 // What the threads of a CUDA warp wait for while they look for neighbours, counted on the host: a warp is as slow as
 // its slowest thread, row by row. Says how often a warp looks at a candidate and computes a pair, for cells of several
-// widths and lists of several lengths, in water at rest. Ends with 1 where the neighbours found are not those there
-// are.
+// widths, lists of several lengths and one or four candidates at a stroke, in water at rest. Ends with 1 where the
+// neighbours found are not those there are.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,16 +20,17 @@ constexpr int warp = 32;
 constexpr double size = 44;  // of the cube, in particle spacings
 using Place = Vec<float, 3>;
 
-/// Particles in cells of 2h / reach, sorted as a device sorts them.
+/// Particles sorted as a device sorts them, in cells of which `edge` are as wide as the reach, and narrower along the
+/// rows by `split`.
 struct Scene {
   double h;
   Grid<float, 3> grid;
   std::vector<Place> x;
   std::vector<int> start;
 
-  Scene(double spacings, int reach) : h(spacings) {
+  Scene(double spacings, int edge, int split) : h(spacings) {
     const double low[3] = {0, 0, 0}, high[3] = {size, size, size};
-    grid = Grid<float, 3>(low, high, 2 * h * reach_in_supports / reach * (1 + 1e-6), reach);
+    grid = Grid<float, 3>(low, high, Grid<float, 3>::reach_of_device(h) / edge, edge, split);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> off(-0.35f, 0.35f);
     for (int a = 0; a < int(size); ++a)
@@ -59,37 +60,35 @@ struct Scene {
 };
 
 struct Count {
-  double warps = 0, looks = 0, pairs = 0, neighbours = 0;
+  double warps = 0, rows = 0, looks = 0, pairs = 0, neighbours = 0;
 };
 
-/// One warp from particle `first` on. list 0: whatever is near is computed at once.
-void count(const Scene& s, int first, int list, Count& sum) {
+/// One warp from particle `first` on, whose threads look at `stroke` candidates at a stroke (Pass::for_each_listed).
+void count(const Scene& s, int first, int list, int stroke, Count& sum) {
   std::array<int, warp> j, end, listed{};
-  std::array<Grid<float, 3>::Row, warp> row;
-  for (int lane = 0; lane < warp; ++lane) row[lane] = s.grid.first_row(s.grid.cell(s.x[std::size_t(first + lane)]));
-  const int rows = s.grid.rows();
-  sum.warps += 1;
+  std::vector<NearRows<float, 3>> near;
+  for (int lane = 0; lane < warp; ++lane) near.emplace_back(s.grid, s.grid.in_cell(s.x[std::size_t(first + lane)]));
+  const int rows = near[0].count();
+  sum.warps += 1, sum.rows += rows;
   for (int k = 0; k <= rows; ++k) {
     j.fill(0), end.fill(0);
-    for (int lane = 0; lane < warp && k < rows; ++lane) {
-      s.grid.particles(s.start.data(), row[lane], j[lane], end[lane]);
-      s.grid.to_next(row[lane]);
-    }
+    for (int lane = 0; lane < warp && k < rows; ++lane) near[lane].next(s.start.data(), j[lane], end[lane]);
     for (;;) {
       for (bool more = true; more;) {  // an iteration of the loop over candidates, for all lanes
-        bool computes = false;
         more = false;
         for (int lane = 0; lane < warp; ++lane) {
-          if (j[lane] == end[lane] || (list > 0 && listed[lane] == list)) continue;
+          if (j[lane] >= end[lane] || listed[lane] > list - stroke) continue;
           more = true;
-          if (s.near(first + lane, j[lane]++)) ++listed[lane], ++sum.neighbours, computes = true;
+          for (int m = 0; m < stroke; ++m, ++j[lane])
+            if (j[lane] < end[lane] && s.near(first + lane, j[lane])) ++listed[lane], ++sum.neighbours;
         }
-        sum.looks += more;
-        if (list == 0) sum.pairs += computes;
+        sum.looks += more ? stroke : 0;
       }
       const int most = *std::max_element(listed.begin(), listed.end());
-      if (list > 0 && (most == list || k == rows)) sum.pairs += most, listed.fill(0);
-      if (j == end) break;
+      if (most > list - stroke || k == rows) sum.pairs += most, listed.fill(0);
+      bool done = true;
+      for (int lane = 0; lane < warp; ++lane) done = done && j[lane] >= end[lane];
+      if (done) break;
     }
   }
 }
@@ -97,25 +96,28 @@ void count(const Scene& s, int first, int list, Count& sum) {
 }  // namespace
 
 int main() {
-  std::printf("%6s %12s %6s %12s %12s %12s\n", "h/dp", "cells, h", "list", "neighbours", "looks", "pairs");
+  std::printf("%6s %15s %15s %6s %7s %12s %6s %12s %12s\n", "h/dp", "across rows, h", "along rows, h", "list", "stroke",
+              "neighbours", "rows", "looks", "pairs");
   bool all_found = true;
   for (const double spacings : {1.5, 2.0})
-    for (const int reach : {1, 2}) {
-      const Scene scene(spacings, reach);
-      for (const int list : {0, 16, CudaDevice::list, 64}) {
+    for (const auto [edge, split] : {std::pair(1, 1), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1)}) {
+      const Scene scene(spacings, edge, split);
+      for (const auto [list, stroke] :
+           {std::pair(CudaDevice::list, 1), std::pair(CudaDevice::list, 4), std::pair(48, 4)}) {
         Count sum;
         double there = 0;
         for (int first = 0; first + warp <= int(scene.x.size()); first += 61 * warp) {
           bool inside = true;
           for (int lane = 0; lane < warp; ++lane) inside = inside && scene.inside(first + lane);
           if (!inside) continue;
-          count(scene, first, list, sum);
+          count(scene, first, list, stroke, sum);
           for (int lane = 0; lane < warp; ++lane)
             for (int i = 0; i < int(scene.x.size()); ++i) there += scene.near(first + lane, i);
         }
         all_found = all_found && sum.warps > 0 && sum.neighbours == there;
-        std::printf("%6.1f %12.1f %6d %12.0f %12.0f %12.0f\n", spacings, 2.0 / reach, list,
-                    sum.neighbours / sum.warps / warp, sum.looks / sum.warps, sum.pairs / sum.warps);
+        std::printf("%6.1f %15.2f %15.2f %6d %7d %12.0f %6.0f %12.0f %12.0f\n", spacings, 2.0 / edge,
+                    2.0 / edge / split, list, stroke, sum.neighbours / sum.warps / warp, sum.rows / sum.warps,
+                    sum.looks / sum.warps, sum.pairs / sum.warps);
       }
     }
   return all_found ? 0 : 1;

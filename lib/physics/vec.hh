@@ -57,13 +57,22 @@ struct Distance {
   }
 };
 
+/// The larger one; of a NaN whatever the processor's own instruction makes.
 template <class T>
 LGIW_FN T largest(T a, T b) {
+#if defined(__CUDA_ARCH__)
+  return max(a, b);
+#else
   return a > b ? a : b;
+#endif
 }
 template <class T>
 LGIW_FN T smallest(T a, T b) {
+#if defined(__CUDA_ARCH__)
+  return min(a, b);
+#else
   return a < b ? a : b;
+#endif
 }
 
 }  // namespace lgiw

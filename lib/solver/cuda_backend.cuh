@@ -54,10 +54,28 @@ __global__ void run_limits(int n, F f, Limits<T>* limits) {
     raise(&limits->mu, mine.mu);
   }
 }
-template <class To, class From>
-__global__ void rearrange_kernel(int n, To* to, const From* from, const int* order) {
+/// Fields of one width that are moved side by side.
+struct Moves {
+  static constexpr int most = 16;
+  int count = 0;
+  void* to[most];
+  const void* from[most];
+
+  /// Whether it can be moved beside the others: none comes from where one goes to.
+  bool takes(const Rearrangement& move) const {
+    for (int k = 0; k < count; ++k)
+      if (to[k] == move.from() || from[k] == move.to() || to[k] == move.to()) return false;
+    return count < most;
+  }
+  void add(const Rearrangement& move) { to[count] = move.to(), from[count++] = move.from(); }
+};
+template <class Word>
+__global__ void rearrange_kernel(int n, Moves moves, const int* order) {
   const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
-  if (i < n) to[i] = To(from[order ? order[i] : i]);
+  if (i >= n) return;
+  const int from = order ? order[i] : i;
+  for (int k = 0; k < moves.count; ++k)
+    static_cast<Word*>(moves.to[k])[i] = static_cast<const Word*>(moves.from[k])[from];
 }
 static __global__ void iota_kernel(int n, int* to) {
   const int i = int(blockIdx.x) * int(blockDim.x) + int(threadIdx.x);
@@ -133,14 +151,11 @@ struct CudaBackend {
 
   /// Stable radix sort by key, to and fro between the arrays and the memory of two as long that hold nothing now; CUB
   /// would take as much besides. The keys come out sorted as well; Motion sets them anew before the next sort.
-  template <class A, class B>
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start,
-                    const Array<A>& spare, const Array<B>& other_spare) {
-    static_assert(sizeof(A) >= sizeof(int) && sizeof(B) >= sizeof(int));
+  void sort_by_cell(const Array<int>& key, int cells, int* order, const Array<int>& start, int* spare,
+                    int* other_spare) {
     const int n = int(key.size());
     if (n == 0) return;
-    cub::DoubleBuffer<int> keys(key.data(), reinterpret_cast<int*>(spare.data())),
-        orders(order.data(), reinterpret_cast<int*>(other_spare.data()));
+    cub::DoubleBuffer<int> keys(key.data(), spare), orders(order, other_spare);
     iota_kernel<<<blocks(n), block>>>(n, orders.Current());
     int bits = 1;
     while (bits < 31 && (cells >> bits) > 0) ++bits;
@@ -148,16 +163,24 @@ struct CudaBackend {
     check_cuda(cub::DeviceRadixSort::SortPairs(nullptr, bytes, keys, orders, n, 0, bits), "sort");
     if (work_.size() < bytes) work_ = Array<unsigned char>(bytes);
     check_cuda(cub::DeviceRadixSort::SortPairs(work_.data(), bytes, keys, orders, n, 0, bits), "sort");
-    take_back(key, keys.Current()), take_back(order, orders.Current());
+    take_back(n, key.data(), keys.Current()), take_back(n, order, orders.Current());
     for_each(CellStart::runs(cells), CellStart{key.data(), n, cells, start.data()});
   }
-  /// Carries out moves of n values each, those that gather by `order`.
+  /// Carries out moves of n values each, those that gather by `order`: those at a time that do not depend on each
+  /// other.
   void rearrange(std::size_t n, const int* order, const std::vector<Rearrangement>& moves) {
     if (n == 0) return;
-    for (const Rearrangement& move : moves) {
-      move.with_types([&](auto* to, const auto* from) {
-        rearrange_kernel<<<blocks(int(n)), block>>>(int(n), to, from, move.gathers() ? order : nullptr);
-      });
+    for (std::size_t k = 0; k < moves.size();) {
+      const Rearrangement& first = moves[k];
+      Moves beside;
+      while (k < moves.size() && moves[k].gathers() == first.gathers() && moves[k].width() == first.width() &&
+             beside.takes(moves[k]))
+        beside.add(moves[k++]);
+      const int* const by = first.gathers() ? order : nullptr;
+      if (first.width() == sizeof(double))
+        rearrange_kernel<double><<<blocks(int(n)), block>>>(int(n), beside, by);
+      else
+        rearrange_kernel<int><<<blocks(int(n)), block>>>(int(n), beside, by);
       launched("sort");
     }
   }
@@ -180,9 +203,9 @@ struct CudaBackend {
 
  private:
   /// Where the sort has ended in the other array.
-  static void take_back(const Array<int>& to, const int* sorted) {
-    if (sorted != to.data())
-      check_cuda(cudaMemcpyAsync(to.data(), sorted, to.size() * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
+  static void take_back(int n, int* to, const int* sorted) {
+    if (sorted != to)
+      check_cuda(cudaMemcpyAsync(to, sorted, std::size_t(n) * sizeof(int), cudaMemcpyDeviceToDevice), "sort");
   }
 
   Array<unsigned char> work_;

@@ -129,16 +129,11 @@ struct OpenMpBackend {
 
   /// Stable counting sort by key: order[k] is the old index of the k-th particle, start[c] the first of cell c. Needs
   /// no memory of others.
-  template <class A, class B>
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start, const Array<A>&,
-                    const Array<B>&) {
-    sort_by_cell(key, cells, order, start);
-  }
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start) {
+  void sort_by_cell(const Array<int>& key, int cells, int* order, const Array<int>& start, int*, int*) {
     const int n = int(key.size()), threads = omp_get_max_threads();
     // A count of all cells a thread; not where the domain is so empty, or the scene so small, that these cost more.
     if (threads > 1 && n > 20000 && int64_t(cells) * threads < 4 * int64_t(n))
-      return sort_by_cell_in_parallel(key.data(), n, cells, order.data(), start.data());
+      return sort_by_cell_in_parallel(key.data(), n, cells, order, start.data());
     int* s = start.data();
     std::memset(s, 0, start.size() * sizeof(int));
     for (int i = 0; i < n; ++i) ++s[key.data()[i]];
@@ -148,7 +143,7 @@ struct OpenMpBackend {
       s[c] = sum;
       sum += count;
     }
-    for (int i = 0; i < n; ++i) order.data()[s[key.data()[i]]++] = i;
+    for (int i = 0; i < n; ++i) order[s[key.data()[i]]++] = i;
     for (int c = cells; c > 0; --c) s[c] = s[c - 1];  // the fill moved each start to the next one's place
     s[0] = 0;
   }
@@ -263,11 +258,13 @@ struct OpenMpBackend {
       const std::size_t begin = n * me / threads, end = n * (me + 1) / threads;
       for (const Rearrangement& move : moves) {
         move.with_types([&](auto* to, const auto* from) {
-          using To = std::remove_pointer_t<decltype(to)>;
+          const auto each = [&](const auto& index) {
+            for (std::size_t i = begin; i < end; ++i) to[i] = std::remove_pointer_t<decltype(to)>(from[index(i)]);
+          };
           if (move.gathers())
-            for (std::size_t i = begin; i < end; ++i) to[i] = To(from[order[i]]);
+            each([&](std::size_t i) { return std::size_t(order[i]); });
           else
-            for (std::size_t i = begin; i < end; ++i) to[i] = To(from[i]);
+            each([](std::size_t i) { return i; });
         });
         // What was gathered from is written next; what is rounded is each thread's own.
         if (move.gathers()) {

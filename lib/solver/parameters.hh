@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <type_traits>
 
 #include "physics/gradient_correction.hh"
 #include "physics/interface.hh"
@@ -153,6 +155,21 @@ struct Parameters {
   }
 };
 
+/// Four values of a particle side by side, which a device loads at a stroke.
+template <class T>
+struct alignas(16) Four {
+  T c[4];
+};
+/// One component of what is kept in fours.
+template <class T>
+struct OfFours {
+  const T* first = nullptr;
+  LGIW_FN const T& operator[](int i) const { return first[4 * std::ptrdiff_t(i)]; }
+};
+/// Places of particles as the passes read them: on a device in fours, whose last value is something else.
+template <class Tr>
+using Places = std::conditional_t<Tr::tiles, const typename Tr::T*, OfFours<typename Tr::T>>;
+
 /// Fields of a phase as the kernels see them. `x` is the position in T; `position` in P is the one that is integrated.
 template <class Tr>
 struct WaterView {
@@ -162,7 +179,9 @@ struct WaterView {
   const int* start = nullptr;                 // [cells + 1]
   const unsigned char* cells_near = nullptr;  // [cells] 0: no particle of this phase is near; null: not known
   const TileTable<T, D>* tiles = nullptr;     // on the CPU
-  const T* x[D] = {};
+  Four<T>* place = nullptr;                   // on a device: where it is, and its term
+  Four<T>* motion = nullptr;                  // and its velocity and excess
+  Places<Tr> x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
   T* a[D] = {};
@@ -186,7 +205,9 @@ struct SoilView {
   const int* start = nullptr;
   const unsigned char* cells_near = nullptr;
   const TileTable<T, D>* tiles = nullptr;  // on the CPU
-  const T* x[D] = {};
+  Four<T>* place = nullptr;                // on a device: where it is, and its image_term
+  Four<T>* motion = nullptr;               // and its velocity and image_excess
+  Places<Tr> x[D] = {};
   typename Tr::P* position[D] = {};
   T* v[D] = {};
   T* a[D] = {};
@@ -202,7 +223,8 @@ struct SoilView {
   int* key = nullptr;
 };
 
-template <class Tr>
+/// X: how their places are kept.
+template <class Tr, class X = Places<Tr>>
 struct WallView {
   static constexpr int D = Tr::D;
   static constexpr bool moving = false;
@@ -211,7 +233,8 @@ struct WallView {
   const int* start = nullptr;
   const unsigned char* cells_near = nullptr;
   const TileTable<T, D>* tiles = nullptr;  // on the CPU
-  const T* x[D] = {};
+  Four<T>* place = nullptr;                // on a device: where it is, and its weight
+  X x[D] = {};
   const T* normal[D] = {};
   const T* weight = nullptr;    // V_b / dp^D
   const T* slip = nullptr;      // 1 where soil slips, freely or against friction
@@ -225,7 +248,7 @@ struct WallView {
 
 /// Wall particles of the bodies that move as prescribed.
 template <class Tr>
-struct BodyView : WallView<Tr> {
+struct BodyView : WallView<Tr, const typename Tr::T*> {
   static constexpr int D = Tr::D;
   static constexpr bool moving = true;
   using T = typename Tr::T;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -46,9 +47,21 @@ struct SetKeys : Pass<Tr> {
 /// Term p/rho^2 from the density.
 template <class Tr>
 struct SetTerms : Pass<Tr> {
+  LGIW_FN void operator()(int i) const { this->water.term[i] = pressure_term(this->parameters, this->water.excess[i]); }
+};
+/// On a device: what passes read of a neighbour at a stroke. View: of water or soil.
+template <class Tr, class View>
+struct SetFours : Pass<Tr> {
+  using T = typename Tr::T;
+  static constexpr int D = Tr::D;
+  View view;
+  const T *with_place, *with_velocity;  // null: 0
   LGIW_FN void operator()(int i) const {
-    const auto e = this->water.excess[i], rho = this->parameters.eos.rho0 + e;
-    this->water.term[i] = this->parameters.eos.pressure(e) / (rho * rho);
+    Four<T> place{}, motion{};
+    for (int k = 0; k < D; ++k) place.c[k] = T(view.position[k][i]), motion.c[k] = view.v[k][i];
+    if (with_place) place.c[D] = with_place[i];
+    if (with_velocity) motion.c[D] = with_velocity[i];
+    view.place[i] = place, view.motion[i] = motion;
   }
 };
 template <class Tr>
@@ -65,7 +78,10 @@ class ParticleSimulation final : public Simulation {
   using T = typename Tr::T;
   using P = typename Tr::P;
   static constexpr int D = Tr::D, S = Tr::S;
-  static constexpr bool two_positions = !std::is_same_v<T, P>;
+  /// Passes read places and velocities in fours (parameters.hh), or places in an array of their own where they are in
+  /// another precision.
+  static constexpr bool in_fours = !Tr::tiles;
+  static constexpr bool two_positions = !in_fours && !std::is_same_v<T, P>;
   template <class U>
   using Array = typename Backend::template Array<U>;
   using Tiles = typename Backend::template Tiles<T, D>;
@@ -96,6 +112,7 @@ class ParticleSimulation final : public Simulation {
     Spare spare;
     Array<P> position[D];
     Array<T> x[D], v[D], a[D], excess, excess_next, density_rate, term, v_previous[D], excess_previous, shift[D];
+    Array<Four<T>> place, motion;
     Array<unsigned> id;
     Array<int> key, start;
     Tiles tiles;
@@ -114,6 +131,7 @@ class ParticleSimulation final : public Simulation {
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : shift) f(q, "shifting");
       f(excess_next, "next density"), f(density_rate, "density rate"), f(key, "cell"), f(start, "cell starts");
+      f(place, "places"), f(motion, "motions");
       tiles.all(f);
     }
   };
@@ -122,6 +140,7 @@ class ParticleSimulation final : public Simulation {
     Array<P> position[D];
     Array<T> x[D], v[D], a[D], stress[S], stress_next[S], adps, image_term, image_excess, artificial[S], v_previous[D],
         stress_previous[S];
+    Array<Four<T>> place, motion;
     Array<unsigned> id;
     Array<int> key, start;
     Tiles tiles;
@@ -142,11 +161,13 @@ class ParticleSimulation final : public Simulation {
       for (auto& q : a) f(q, "acceleration");
       for (auto& q : stress_next) f(q, "next stress");
       f(image_term, "image pressure"), f(image_excess, "image density"), f(key, "cell"), f(start, "cell starts");
+      f(place, "places"), f(motion, "motions");
       tiles.all(f);
     }
   };
   struct Wall {
     Array<T> x[D], normal[D], weight, slip, friction, term, excess, v[D], stress[S];
+    Array<Four<T>> place;  // instead of x and weight
     Array<unsigned> id;
     Array<int> start;
     Tiles tiles;
@@ -154,7 +175,7 @@ class ParticleSimulation final : public Simulation {
     void all(F&& f) {
       for (auto& q : x) f(q, "position");
       for (auto& q : normal) f(q, "normal");
-      f(weight, "volume"), f(slip, "slip"), f(friction, "friction"), f(term, "image pressure"),
+      f(place, "places"), f(weight, "volume"), f(slip, "slip"), f(friction, "friction"), f(term, "image pressure"),
           f(excess, "image density");
       for (auto& q : v) f(q, "image velocity");
       for (auto& q : stress) f(q, "image stress");
@@ -270,6 +291,8 @@ class ParticleSimulation final : public Simulation {
     if (n_water_ && p_.verlet) copy(water_.excess_previous, water_.excess);
     for (int c = 0; c < S && n_soil_ && p_.verlet; ++c) copy(soil_.stress_previous[c], soil_.stress[c]);
     if (n_bodies_) move_bodies(false), sort_phase(bodies_);
+    if (n_water_) set_fours(water_);
+    if (n_soil_) set_fours(soil_);
     evaluate();
     finish(false);
   }
@@ -411,6 +434,9 @@ class ParticleSimulation final : public Simulation {
   }
   std::string device() const override { return backend_.name(); }
   bool leaves_host_free() const override { return !Backend::on_host; }
+  void between_phases(const std::function<void()>& call) override {
+    if (Backend::on_host) between_phases_ = call;
+  }
   std::string description() const override {
     const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
     const std::string instructions = backend_.instructions();
@@ -439,6 +465,7 @@ class ParticleSimulation final : public Simulation {
       water_.a[k] = zeros<T>(n);
       if (p_.shifting.strength > 0) water_.shift[k] = zeros<T>(n);
     }
+    make_fours(water_, n);
     std::vector<T> excess(in.water_excess.begin(), in.water_excess.end());
     put(water_.excess, excess);
     if (p_.verlet) put(water_.excess_previous, excess);
@@ -462,6 +489,7 @@ class ParticleSimulation final : public Simulation {
       if (p_.verlet) put(soil_.v_previous[k], v);
       soil_.a[k] = zeros<T>(n);
     }
+    make_fours(soil_, n);
     std::vector<T> stress(n);
     for (int c = 0; c < S; ++c) {
       for (std::size_t i = 0; i < n; ++i) stress[i] = T(in.soil_stress[6 * i + stress_axis(c)]);
@@ -495,12 +523,24 @@ class ParticleSimulation final : public Simulation {
   void fill_common(const InitialParticles& in, const std::vector<unsigned>& id, Walls& walls, Array<T>* image_v) {
     const std::size_t n = id.size();
     std::vector<T> value(n);
-    for (int k = 0; k < D; ++k) {
-      for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_x[3 * std::size_t(id[i]) + axis(k)]);
-      put(walls.x[k], value);
+    const auto x = [&](std::size_t i, int k) { return T(in.wall_x[3 * std::size_t(id[i]) + axis(k)]); };
+    const auto weight = [&](std::size_t i) { return T(in.wall_volume[id[i]] / double(p_.volume)); };
+    if constexpr (in_fours && std::is_same_v<Walls, Wall>) {
+      std::vector<Four<T>> place(n + fours_to_spare, Four<T>{});
+      for (std::size_t i = 0; i < n; ++i) {
+        for (int k = 0; k < D; ++k) place[i].c[k] = x(i, k);
+        place[i].c[D] = weight(i);
+      }
+      put(walls.place, place);
+    } else {
+      for (int k = 0; k < D; ++k) {
+        for (std::size_t i = 0; i < n; ++i) value[i] = x(i, k);
+        put(walls.x[k], value);
+      }
+      for (std::size_t i = 0; i < n; ++i) value[i] = weight(i);
+      put(walls.weight, value);
     }
-    for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_volume[id[i]] / double(p_.volume));
-    put(walls.weight, value), put(walls.id, id);
+    put(walls.id, id);
     if (n_water_) walls.term = zeros<T>(n), walls.excess = zeros<T>(n);
     for (int k = 0; k < D && needs_normals(); ++k) {
       for (std::size_t i = 0; i < n; ++i) value[i] = T(in.wall_normal[3 * std::size_t(id[i]) + axis(k)]);
@@ -535,6 +575,27 @@ class ParticleSimulation final : public Simulation {
     fill_common(in, id, wall_, wall_.v);
     find_tiles(wall_, wall_.x);
   }
+  template <class Phase>
+  void make_fours(Phase& phase, std::size_t n) {
+    if constexpr (in_fours)
+      phase.place = zeros<Four<T>>(n + fours_to_spare), phase.motion = zeros<Four<T>>(n + fours_to_spare);
+  }
+  /// After a sort and whenever what is in them has changed.
+  void set_fours(Water& water) {
+    if constexpr (in_fours) {
+      auto set = pass<SetFours<Tr, WaterView<Tr>>>();
+      set.view = water_view(), set.with_place = water.term.data(), set.with_velocity = water.excess.data();
+      backend_.for_each(n_water_, set);
+    }
+  }
+  void set_fours(Soil& soil) {
+    if constexpr (in_fours) {
+      auto set = pass<SetFours<Tr, SoilView<Tr>>>();
+      set.view = soil_view(), set.with_place = soil.image_term.data(), set.with_velocity = soil.image_excess.data();
+      backend_.for_each(n_soil_, set);
+    }
+  }
+  void set_fours(Bodies&) {}
   /// Before any pass looks for or at a phase whose particles are at x.
   template <class Phase, class U>
   void find_tiles([[maybe_unused]] Phase& phase, [[maybe_unused]] const Array<U>* x) {
@@ -634,6 +695,7 @@ class ParticleSimulation final : public Simulation {
           pairs<WaterPairRates<Tr>>(water_view());
           backend_.for_each_near(water_view(), failing<WaterRates<Tr>>());
           water_.excess.swap(water_.excess_next);
+          set_fours(water_);
         }
       });
     if (n_soil_) {
@@ -645,7 +707,10 @@ class ParticleSimulation final : public Simulation {
   void evaluate() {
     if (n_wall_ && (n_water_ || n_soil_)) run<WallImages<Tr, false>>("images", wall_view());
     if (n_bodies_ && (n_water_ || n_soil_)) run<WallImages<Tr, true>>("images", body_view());
-    if (n_soil_ && n_water_) run<SoilImages<Tr>>("images", soil_view());
+    if (n_soil_ && n_water_) {
+      run<SoilImages<Tr>>("images", soil_view());
+      timed("images", [&] { set_fours(soil_); });
+    }
     if (n_water_ && p_.shifting.strength > 0) run<WaterShift<Tr>>("shifting", water_view());
     if (p_.verlet)
       compute_forces<true>();
@@ -678,6 +743,11 @@ class ParticleSimulation final : public Simulation {
   template <class Phase>
   void follow_order(Phase& phase) {
     backend_.rearrange(phase.key.size(), nullptr, rounding(phase));
+    finish_order(phase);
+  }
+  template <class Phase>
+  void finish_order(Phase& phase) {
+    set_fours(phase);
     find_tiles(phase);
   }
   /// Positions as the passes read them.
@@ -690,13 +760,25 @@ class ParticleSimulation final : public Simulation {
   }
   template <class Phase>
   void sort_phase(Phase& phase) {
+    if constexpr (in_fours && !std::is_same_v<Phase, Bodies>)
+      sort_within_fours(phase);
+    else
+      sort_by_swapping(phase);
+    finish_order(phase);
+  }
+  /// Each field is gathered to where the one before it was.
+  template <class Phase>
+  void sort_by_swapping(Phase& phase) {
     Spare& spare = phase.spare;
     const auto sized = [n = phase.key.size()](auto& q) -> auto& {
       if (q.size() != n) q = std::remove_reference_t<decltype(q)>(n);
       return q;
     };
     // Before a field has been gathered, what it goes to is free.
-    backend_.sort_by_cell(phase.key, grid_.cells, sized(spare.order), phase.start, sized(spare.t), sized(spare.id));
+    int* const order = sized(spare.order).data();
+    static_assert(sizeof(T) >= sizeof(int));
+    backend_.sort_by_cell(phase.key, grid_.cells, order, phase.start, reinterpret_cast<int*>(sized(spare.t).data()),
+                          reinterpret_cast<int*>(sized(spare.id).data()));
     std::vector<Rearrangement> moves;
     phase.carried([&](auto& q, const char*) {
       if (!q.size()) return;
@@ -705,8 +787,41 @@ class ParticleSimulation final : public Simulation {
       q.swap(to);
     });
     for (const Rearrangement& rounded : rounding(phase)) moves.push_back(rounded);
-    backend_.rearrange(phase.key.size(), spare.order.data(), moves);
-    find_tiles(phase);
+    backend_.rearrange(phase.key.size(), order, moves);
+  }
+  /// Fields are gathered into the memory of the fours, which are made anew afterwards, and copied back: no memory is
+  /// needed besides.
+  template <class Phase>
+  void sort_within_fours(Phase& phase) {
+    const std::size_t n = phase.key.size(), room = n * sizeof(Four<T>);
+    unsigned char* const memory[2] = {reinterpret_cast<unsigned char*>(phase.place.data()),
+                                      reinterpret_cast<unsigned char*>(phase.motion.data())};
+    int* const order = reinterpret_cast<int*>(memory[1] + room - n * sizeof(int));
+    const std::size_t ends[2] = {room, room - n * sizeof(int)};
+    backend_.sort_by_cell(phase.key, grid_.cells, order, phase.start, reinterpret_cast<int*>(memory[0]),
+                          reinterpret_cast<int*>(memory[0] + n * sizeof(int)));
+    std::vector<Rearrangement> there, back;
+    std::size_t used[2] = {0, 0};
+    const auto carry_out = [&] {
+      there.insert(there.end(), back.begin(), back.end());
+      backend_.rearrange(n, order, there);
+      there.clear(), back.clear();
+      used[0] = used[1] = 0;
+    };
+    phase.carried([&](auto& q, const char*) {
+      if (!q.size()) return;
+      using U = std::remove_pointer_t<decltype(q.data())>;
+      const std::size_t bytes = n * sizeof(U);
+      const auto start_in = [&](int m) { return (used[m] + sizeof(U) - 1) / sizeof(U) * sizeof(U); };
+      const auto fits = [&](int m) { return start_in(m) + bytes <= ends[m]; };
+      if (!fits(0) && !fits(1)) carry_out();
+      const int m = fits(0) ? 0 : 1;
+      U* const to = reinterpret_cast<U*>(memory[m] + start_in(m));
+      used[m] = start_in(m) + bytes;
+      there.push_back(Rearrangement::gathered(to, q.data()));
+      back.push_back(Rearrangement::copied(q.data(), to));
+    });
+    carry_out();
   }
 
   // Plumbing.
@@ -809,6 +924,7 @@ class ParticleSimulation final : public Simulation {
   }
   template <class F>
   void timed(const char* phase, F&& f) {
+    if (between_phases_) between_phases_();
     const double start = backend_.now();
     f();
     times_[phase] += backend_.now() - start;
@@ -824,19 +940,23 @@ class ParticleSimulation final : public Simulation {
     f.state = state_.data();
     f.stepping = stepping_;
   }
+  static OfFours<T> component_of(const Array<Four<T>>& fours, int k) { return {fours.data()->c + k}; }
   WaterView<Tr> water_view() const {
     WaterView<Tr> w;
     w.n = n_water_;
     if (!w.n) return w;
     for (int k = 0; k < D; ++k) {
       w.position[k] = water_.position[k].data();
-      if constexpr (two_positions)
+      if constexpr (in_fours)
+        w.x[k] = component_of(water_.place, k);
+      else if constexpr (two_positions)
         w.x[k] = water_.x[k].data();
       else
         w.x[k] = water_.position[k].data();
       w.shift[k] = water_.shift[k].data();
       w.v[k] = water_.v[k].data(), w.a[k] = water_.a[k].data(), w.v_previous[k] = water_.v_previous[k].data();
     }
+    w.place = water_.place.data(), w.motion = water_.motion.data();
     w.start = water_.start.data(), w.cells_near = water_.tiles.cells_near(), w.tiles = water_.tiles.table(),
     w.excess = water_.excess.data(), w.excess_next = water_.excess_next.data(),
     w.density_rate = water_.density_rate.data();
@@ -850,7 +970,9 @@ class ParticleSimulation final : public Simulation {
     if (!s.n) return s;
     for (int k = 0; k < D; ++k) {
       s.position[k] = soil_.position[k].data();
-      if constexpr (two_positions)
+      if constexpr (in_fours)
+        s.x[k] = component_of(soil_.place, k);
+      else if constexpr (two_positions)
         s.x[k] = soil_.x[k].data();
       else
         s.x[k] = soil_.position[k].data();
@@ -860,6 +982,7 @@ class ParticleSimulation final : public Simulation {
       s.stress[c] = soil_.stress[c].data(), s.stress_next[c] = soil_.stress_next[c].data();
       s.artificial[c] = soil_.artificial[c].data(), s.stress_previous[c] = soil_.stress_previous[c].data();
     }
+    s.place = soil_.place.data(), s.motion = soil_.motion.data();
     s.start = soil_.start.data(), s.cells_near = soil_.tiles.cells_near(), s.tiles = soil_.tiles.table(),
     s.adps = soil_.adps.data(), s.id = soil_.id.data(), s.key = soil_.key.data();
     s.image_term = soil_.image_term.data(), s.image_excess = soil_.image_excess.data();
@@ -869,8 +992,14 @@ class ParticleSimulation final : public Simulation {
     WallView<Tr> b;
     b.n = without_walls_ ? 0 : n_wall_;
     if (!b.n) return b;
-    for (int k = 0; k < D; ++k)
-      b.x[k] = wall_.x[k].data(), b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
+    for (int k = 0; k < D; ++k) {
+      if constexpr (in_fours)
+        b.x[k] = component_of(wall_.place, k);
+      else
+        b.x[k] = wall_.x[k].data();
+      b.normal[k] = wall_.normal[k].data(), b.v[k] = wall_.v[k].data();
+    }
+    b.place = wall_.place.data();
     for (int c = 0; c < S; ++c) b.stress[c] = wall_.stress[c].data();
     b.start = wall_.start.data(), b.cells_near = wall_.tiles.cells_near(), b.tiles = wall_.tiles.table();
     b.weight = wall_.weight.data(), b.slip = wall_.slip.data();
@@ -962,6 +1091,8 @@ class ParticleSimulation final : public Simulation {
     if (n_bodies_) f(bodies_.start, "body cell starts");
   }
 
+  static constexpr std::size_t fours_to_spare = 4;  // passes look at four of them at a stroke, beyond the last, too
+
   mutable Backend backend_;
   ModelParameters model_;
   NumberType type_;
@@ -977,6 +1108,7 @@ class ParticleSimulation final : public Simulation {
   Array<StepState> state_;
   Array<Limits<T>> limits_;
   std::map<std::string, double> times_;
+  std::function<void()> between_phases_;
 };
 
 template <class Backend, class Tr>

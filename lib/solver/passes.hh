@@ -3,6 +3,7 @@
 // phase or feature that the scene lacks is skipped outside them.
 #pragma once
 
+#include "solver/held.hh"
 #include "solver/parameters.hh"
 #include "solver/simulation.hh"
 
@@ -14,24 +15,40 @@ namespace lgiw {
 #define LGIW_ROLLED
 #endif
 
-/// Numbers of particles, of which each thread has its own: on a device in shared memory.
+/// Numbers of particles, of which each thread has its own: on a device in shared memory, where those of threads side by
+/// side lie side by side. Places in it are counted in steps.
 template <class Machine>
 class NearList {
  public:
   static constexpr int size = Machine::list;
 #if defined(__CUDA_ARCH__)
-  __device__ __forceinline__ int& operator[](int k) { return of_block()[k * Machine::block + int(threadIdx.x)]; }
-
- private:
-  static __device__ __forceinline__ int* of_block() {
-    __shared__ int numbers[size * Machine::block];
-    return numbers;
-  }
+  static constexpr int step = Machine::block;
+  __device__ __forceinline__ NearList() : first_(int(threadIdx.x)), end_(first_) {}
 #else
-  LGIW_FN int& operator[](int k) { return numbers_[k]; }
+  static constexpr int step = 1;
+  LGIW_FN NearList() {}
+#endif
+  LGIW_FN int first() const { return first_; }
+  LGIW_FN int end() const { return end_; }
+  LGIW_FN bool has_room(int for_how_many) const { return end_ <= first_ + (size - for_how_many) * step; }
+  /// Takes `j` if `near`: without a branch, as some thread of a warp always takes one.
+  LGIW_FN void add(int j, bool near) {
+    numbers()[end_] = j;
+    end_ += near ? step : 0;
+  }
+  LGIW_FN int operator[](int place) { return numbers()[place]; }
+  LGIW_FN void clear() { end_ = first_; }
 
  private:
-  int numbers_[size];
+#if defined(__CUDA_ARCH__)
+  static __device__ __forceinline__ int* numbers() {
+    __shared__ int of_block[size * Machine::block];
+    return of_block;
+  }
+  int first_, end_;
+#else
+  LGIW_FN int* numbers() { return numbers_; }
+  int first_ = 0, end_ = 0, numbers_[size];
 #endif
 };
 
@@ -52,14 +69,17 @@ struct Pass {
   const StepState* state;
   bool stepping;  // part of a step; else the present state is evaluated whatever the time
 
+  /// Where it is to look for neighbours of particle i: on a device.
+  using Cell = InCell<T, D>;
   template <class View>
-  LGIW_FN int cell_of([[maybe_unused]] const View& view, [[maybe_unused]] int i) const {
+  LGIW_FN Cell cell_of([[maybe_unused]] const View& view, [[maybe_unused]] int i) const {
     if constexpr (Tr::tiles)
-      return 0;
+      return {};
     else
-      return grid.cell(load(view.x, i));
+      return grid.in_cell(load(view.x, i));
   }
-  static LGIW_FN V load(const T* const* a, int i) {
+  template <class Fields>
+  static LGIW_FN V load(const Fields& a, int i) {
     V r;
     for (int k = 0; k < D; ++k) r.c[k] = a[k][i];
     return r;
@@ -90,7 +110,7 @@ struct Pass {
   /// On the CPU the particles near a tile have been copied side by side (tiles.hh), and all of them are computed, so
   /// that the loop vectorises.
   template <class View, class F>
-  LGIW_FN void for_each_near(const View& view, [[maybe_unused]] int cell, const V& x, const F& f) const {
+  LGIW_FN void for_each_near(const View& view, [[maybe_unused]] const Cell& cell, const V& x, const F& f) const {
     if constexpr (Tr::tiles) {
 #if !defined(__CUDACC__)
 #pragma GCC ivdep
@@ -106,32 +126,34 @@ struct Pass {
   /// The same on a device, without those beyond reach. A thread first lists who is near, then computes them: what
   /// one thread of a warp computes all others wait for, and each has other neighbours among its candidates.
   template <class View, class F>
-  LGIW_FN void for_each_listed(const View& view, int cell, const V& x, const F& f) const {
+  LGIW_FN void for_each_listed(const View& view, const Cell& cell, const V& x, const F& f) const {
     using Machine = typename Tr::Machine;
-    const int rows = grid.rows();
+    constexpr int stroke = View::at_a_stroke;
     const T reach = T(2 * reach_in_supports) * parameters.h, far2 = reach * reach;
     NearList<Machine> list;
-    auto row = grid.first_row(cell);
-    int n = 0;
+    NearRows<T, D> rows(grid, cell);
+    const int last = rows.count();
     LGIW_ROLLED
-    for (int k = 0; k <= rows; ++k, grid.to_next(row)) {  // the last one computes what is left
+    for (int k = 0; k <= last; ++k) {  // the last one computes what is left
       int j = 0, end = 0;
-      if (k < rows) grid.particles(view.start, row, j, end);
+      if (k < last) rows.next(view.start, j, end);
       for (;;) {
         LGIW_ROLLED
-        for (; j < end && n < list.size; ++j) {
-          const V r = x - load(view.x, j);
-          list[n] = j;
-          n += dot(r, r) < far2;  // no branch: some thread of a warp always has one
+        for (; j < end && list.has_room(stroke); j += stroke) {
+          LGIW_COMPONENTS
+          for (int m = 0; m < stroke; ++m) {
+            const V r = x - view.at(j + m);
+            list.add(j + m, (j + m < end) & (dot(r, r) < far2));
+          }
         }
-        if (!Machine::any_beside(n == list.size) && k < rows) break;
+        if (!Machine::any_beside(!list.has_room(stroke)) && k < last) break;
         LGIW_ROLLED
-        for (int m = 0; m < n; ++m) {
-          const int near = list[m];
-          const V r = x - load(view.x, near);
+        for (int place = list.first(); place < list.end(); place += list.step) {
+          const int near = list[place];
+          const V r = x - view.hold(near);
           f(near, r, dot(r, r));
         }
-        n = 0;
+        list.clear();
         if (!Machine::any_beside(j < end)) break;
       }
     }
@@ -146,12 +168,13 @@ struct Pass {
     else
       return false;
   }
-  /// The phases among which a pass finds its neighbours: whole, or copies of what is near a tile.
-  LGIW_FN const auto& nearby() const {
+  /// The phases among which a pass finds its neighbours: copies of what is near a tile, or all particles, of which it
+  /// holds one at a time.
+  LGIW_FN decltype(auto) nearby() const {
     if constexpr (Tr::tiles)
-      return copies;
+      return static_cast<const Near<Tr>&>(copies);
     else
-      return *this;
+      return HeldNear<Tr>{HeldWater<Tr>(water), HeldSoil<Tr>(soil), HeldWall<Tr>(wall), HeldBodies<Tr>(bodies)};
   }
 
   template <bool of_bodies>
@@ -162,8 +185,8 @@ struct Pass {
       return wall;
   }
 
-  /// True once the target time is reached or a step has failed: what a device still has queued then changes nothing. Not
-  /// within the step that fails, of which all particles are to be looked at: the smallest id is told.
+  /// True once the target time is reached or a step has failed: what a device still has queued then changes nothing.
+  /// Not within the step that fails, of which all particles are to be looked at: the smallest id is told.
   LGIW_FN bool idle() const { return !(state->time < state->target) || state->stopped; }
   /// Part of a step that a device still had queued: the forces of the last step remain, which depend on its length
   /// where walls rub. A host queues none.
@@ -459,8 +482,9 @@ struct BodyMotion : Pass<Tr> {
   static LGIW_FN int axis(int k) { return D == 2 && k == 1 ? 2 : k; }
   LGIW_FN bool inside(const double* place) const {
     for (int k = 0; k < D; ++k) {
-      const double cell = (place[axis(k)] - this->grid.low[k]) * this->grid.inverse_width;
-      if (!(cell >= this->grid.margin && cell < this->grid.n[k] - this->grid.margin)) return false;
+      const double cell = (place[axis(k)] - this->grid.low[k]) * this->grid.inverse_width[k];
+      const int edge = this->grid.at_edge(k);
+      if (!(cell >= edge && cell < this->grid.n[k] - edge)) return false;
     }
     return true;
   }
@@ -471,11 +495,11 @@ struct BodyMotion : Pass<Tr> {
 
 /// Continuity of two water particles: what each adds to the rate of the other one. `diffusion` compiles in that of
 /// density, which alone needs the densities.
-template <bool diffusion, class Tr>
+template <bool diffusion, class Tr, class Water>
 LGIW_FN void continuity_of_pair(const WaterContinuity<typename Tr::T, Tr::D>& continuity, typename Tr::T rho0,
                                 const Vec<typename Tr::T, Tr::D>& r, const Vec<typename Tr::T, Tr::D>& v_ij,
-                                typename Tr::T f, typename Tr::T e_i, const WaterView<Tr>& w, int j,
-                                typename Tr::T& mine, typename Tr::T& other) {
+                                typename Tr::T f, typename Tr::T e_i, const Water& w, int j, typename Tr::T& mine,
+                                typename Tr::T& other) {
   using T = typename Tr::T;
   if constexpr (diffusion) {
     const T e_j = w.excess[j];
@@ -499,19 +523,28 @@ void continuity_reads(const Parameters<Tr>& p, WaterView<Tr>& w, F&& f) {
   f(w, w.excess), f.reciprocal(w, w.inverse_density, w.excess, p.eos.rho0);
 }
 
+/// The term p / rho^2 of water of excess density e.
+template <class Tr>
+LGIW_FN typename Tr::T pressure_term(const Parameters<Tr>& p, typename Tr::T e) {
+  const typename Tr::T rho = p.eos.rho0 + e;
+  return p.eos.pressure(e) / (rho * rho);
+}
+/// Whether it is water still: not half or twice the reference density.
+template <class Tr>
+LGIW_FN bool is_water_still(const Parameters<Tr>& p, typename Tr::T e) {
+  return Motion<Tr, true>::sound(double(e), 0.5 * double(p.eos.rho0));
+}
 /// Gives a water particle its new density, and the pressure that follows from it. Half or twice the reference density
 /// is no water any more: `failed` is told.
 template <class Tr>
 LGIW_FN void store_density(const Parameters<Tr>& p, const WaterView<Tr>& w, int i, typename Tr::T* to,
                            typename Tr::T next, unsigned* failed) {
-  using T = typename Tr::T;
-  if (!Motion<Tr, true>::sound(double(next), 0.5 * double(p.eos.rho0))) {
+  if (!is_water_still(p, next)) {
     note_failure(failed, w.id[i]);
     next = w.excess[i];
   }
   to[i] = next;
-  const T rho = p.eos.rho0 + next;
-  w.term[i] = p.eos.pressure(next) / (rho * rho);
+  w.term[i] = pressure_term(p, next);
 }
 
 /// Leapfrog: continuity of a water particle over water. A pass of its own where each pair is computed once: it leaves
@@ -534,11 +567,11 @@ struct WaterPairRates : Pass<Tr> {
     const auto& w = this->water;
     w.excess_next[i] += over_water(i, this->cell_of(w, i), B::load(w.x, i), B::load(w.v, i));
   }
-  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
+  LGIW_FN T over_water(int i, const typename B::Cell& cell, const V& x, const V& v) const {
     return this->parameters.density_diffusion ? over_water<true>(i, cell, x, v) : over_water<false>(i, cell, x, v);
   }
   template <bool diffusion>
-  LGIW_FN T over_water(int i, int cell, const V& x, const V& v) const {
+  LGIW_FN T over_water(int i, const typename B::Cell& cell, const V& x, const V& v) const {
     const auto& w = this->nearby().water;
     const auto kernel = this->parameters.kernel;
     const auto continuity = this->parameters.continuity;
@@ -574,7 +607,7 @@ struct WaterRates : WaterPairRates<Tr> {
   }
 
   template <class Walls>
-  LGIW_FN T over_walls(const Walls& b, int cell, const V& x, const V& v) const {
+  LGIW_FN T over_walls(const Walls& b, const typename B::Cell& cell, const V& x, const V& v) const {
     const auto& p = this->parameters;
     const T half = this->half_step();
     T rate = 0;
@@ -592,7 +625,7 @@ struct WaterRates : WaterPairRates<Tr> {
       w.excess_next[i] = w.excess[i];
       return;
     }
-    const int cell = this->cell_of(w, i);
+    const auto cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     T rate = Tr::pairs_once ? w.excess_next[i] : this->over_water(i, cell, x, v);
     T at_walls = 0;
@@ -641,16 +674,16 @@ struct WaterDensity : Pass<Tr> {
     const auto& w = self.water;
     const StepState st = *this->state;
     const bool euler = st.euler_countdown == 0;
-    const T step = T(euler ? st.dt : st.dt + st.dt_previous), rho0 = self.parameters.eos.rho0;
+    const T step = T(euler ? st.dt : st.dt + st.dt_previous);
     const int active = w.start[this->grid.cells], last = end < active ? end : active;
     T amiss[block_size];
     T any = 0;
 #pragma omp simd reduction(+ : any)
     for (int i = begin; i < last; ++i) {
       const T now = w.excess[i], before = w.excess_previous[i];
-      const T next = (euler ? now : before) + step * w.density_rate[i], rho = rho0 + next;
-      const T term = self.parameters.eos.pressure(next) / (rho * rho);
-      const bool sound = Motion<Tr, true>::sound(double(next), 0.5 * double(rho0));
+      const T next = (euler ? now : before) + step * w.density_rate[i];
+      const T term = pressure_term(self.parameters, next);
+      const bool sound = is_water_still(self.parameters, next);
       amiss[i - begin] = sound ? T(0) : T(1);
       any += amiss[i - begin];
       w.excess_previous[i] = sound ? now : before;
@@ -680,7 +713,7 @@ struct WallVelocities : Pass<Tr> {
   LGIW_FN void operator()(int i) const {
     const auto& s = this->nearby().soil;
     const auto& b = B::template walls<of_bodies>();
-    const int cell = this->cell_of(b, i);
+    const auto cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
     V sum{};
     T weight = 0;
@@ -718,8 +751,8 @@ struct SoilRates : Pass<Tr> {
   }
 
   template <bool diffusion, bool corrected>
-  LGIW_FN void over_soil(int cell, const V& x, const V& v, const Stress<T, D>& sigma, const Stress<T, D>& at_rest, T* l,
-                         Stress<T, D>& smoothing, MomentMatrix<T, D>& moment) const {
+  LGIW_FN void over_soil(const typename B::Cell& cell, const V& x, const V& v, const Stress<T, D>& sigma,
+                         const Stress<T, D>& at_rest, T* l, Stress<T, D>& smoothing, MomentMatrix<T, D>& moment) const {
     const auto& s = this->nearby().soil;
     const auto& p = this->parameters;
     const T half = this->half_step();
@@ -738,7 +771,7 @@ struct SoilRates : Pass<Tr> {
   }
 
   template <bool corrected, class Walls>
-  LGIW_FN void over_walls(const Walls& walls, int cell, const V& x, const V& v, T* l,
+  LGIW_FN void over_walls(const Walls& walls, const typename B::Cell& cell, const V& x, const V& v, T* l,
                           MomentMatrix<T, D>& moment) const {
     const T half = this->half_step();
     this->for_each_near(walls, cell, x, [&](int j, const V& now, T) LGIW_INLINE {
@@ -751,8 +784,8 @@ struct SoilRates : Pass<Tr> {
   }
 
   template <bool corrected>
-  LGIW_FN void velocity_gradient(int cell, const V& x, const V& v, const Stress<T, D>& sigma, T pore, T* l,
-                                 Stress<T, D>& smoothing) const {
+  LGIW_FN void velocity_gradient(const typename B::Cell& cell, const V& x, const V& v, const Stress<T, D>& sigma,
+                                 T pore, T* l, Stress<T, D>& smoothing) const {
     const auto& p = this->parameters;
     MomentMatrix<T, D> moment;
     if (p.stress_diffusion > 0)
@@ -778,7 +811,7 @@ struct SoilRates : Pass<Tr> {
       B::store_stress(s.stress_next, i, sigma);
       return;
     }
-    const int cell = this->cell_of(s, i);
+    const auto cell = this->cell_of(s, i);
     const V x = B::load(s.x, i), v = B::load(s.v, i);
     const T pore = this->pore_pressure(x.c[D - 1]);
     T l[D * D];
@@ -828,7 +861,7 @@ struct WaterImage : Pass<Tr> {
     f(this->copies.water, this->copies.water.excess, this->copies.water.term);
   }
 
-  LGIW_FN T pressure(int cell, const V& x, const V& g) const {
+  LGIW_FN T pressure(const typename B::Cell& cell, const V& x, const V& g) const {
     const auto& w = this->nearby().water;
     const auto& p = this->parameters;
     T weight = 0, sum = 0;
@@ -862,7 +895,7 @@ struct WallImages : WaterImage<Tr> {
     const auto& p = this->parameters;
     const auto& b = B::template walls<of_bodies>();
     if (this->nothing_near()) return clear(b, i);
-    const int cell = this->cell_of(b, i);
+    const auto cell = this->cell_of(b, i);
     const V x = B::load(b.x, i);
     if (this->water.n) {
       V g = p.gravity;
@@ -886,7 +919,7 @@ struct WallImages : WaterImage<Tr> {
   /// that of a layer grows with depth that rests, slides or flows: all components alike, shear with pressure. The
   /// static increase alone has no shear, and thin layers feel too little friction. Without enough pressure to continue,
   /// the static increase takes over.
-  LGIW_FN Stress<T, D> soil_stress(int i, int cell, const V& x) const {
+  LGIW_FN Stress<T, D> soil_stress(int i, const typename B::Cell& cell, const V& x) const {
     const auto& p = this->parameters;
     const auto& s = this->nearby().soil;
     Stress<T, D> sum;
@@ -963,22 +996,24 @@ struct WaterShift : Pass<Tr> {
     const auto& w = this->water;
     V shift{};
     if (i < w.start[this->grid.cells] && !this->state->settling) {
-      const int cell = this->cell_of(w, i);
+      const auto cell = this->cell_of(w, i);
       const V x = B::load(w.x, i), v = B::load(w.v, i);
       V gradient{};
       T divergence = 0;
       const auto of = [&](const auto& view, const auto& volume) {
         this->for_each_near(view, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
-          const T f = volume(j) * this->parameters.kernel.gradient(Distance<T>(r2));
+          const T f = volume(view, j) * this->parameters.kernel.gradient(Distance<T>(r2));
           add_scaled(gradient, f, r);
           divergence -= f * r2;
         });
       };
       const T one = this->parameters.volume;
-      of(this->nearby().water, [&](int) { return one; });
-      if (this->soil.n) of(this->nearby().soil, [&](int) { return one; });
-      if (this->wall.n) of(this->nearby().wall, [&](int j) { return one * this->nearby().wall.weight[j]; });
-      if (this->bodies.n) of(this->nearby().bodies, [&](int j) { return one * this->nearby().bodies.weight[j]; });
+      const auto same = [&](const auto&, int) { return one; };
+      const auto weighted = [&](const auto& walls, int j) { return one * walls.weight[j]; };
+      of(this->nearby().water, same);
+      if (this->soil.n) of(this->nearby().soil, same);
+      if (this->wall.n) of(this->nearby().wall, weighted);
+      if (this->bodies.n) of(this->nearby().bodies, weighted);
       shift = this->parameters.shifting(gradient, divergence, square_root(dot(v, v)));
     }
     B::store(w.shift, i, shift);
@@ -1028,13 +1063,13 @@ struct WaterPairForces : Pass<Tr> {
     if (rates) w.density_rate[i] += rate;
     return {T(0), mu_max};
   }
-  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max, T& rate) const {
+  LGIW_FN V over_water(int i, const typename B::Cell& cell, const V& x, const V& v, T& mu_max, T& rate) const {
     if constexpr (rates)
       if (this->parameters.density_diffusion) return over_water<true>(i, cell, x, v, mu_max, rate);
     return over_water<false>(i, cell, x, v, mu_max, rate);
   }
   template <bool diffusion>
-  LGIW_FN V over_water(int i, int cell, const V& x, const V& v, T& mu_max, T& rate) const {
+  LGIW_FN V over_water(int i, const typename B::Cell& cell, const V& x, const V& v, T& mu_max, T& rate) const {
     const auto& w = this->nearby().water;
     const auto continuity = this->parameters.continuity;
     const auto kernel = this->parameters.kernel;
@@ -1083,7 +1118,8 @@ struct WaterForces : WaterPairForces<Tr, rates> {
   }
 
   template <bool slips, class Walls>
-  LGIW_FN void over_walls(const Walls& b, int cell, const V& x, const V& v, T term_i, T rho_i, V& a, T& rate) const {
+  LGIW_FN void over_walls(const Walls& b, const typename B::Cell& cell, const V& x, const V& v, T term_i, T rho_i, V& a,
+                          T& rate) const {
     const auto& p = this->parameters;
     T sum = 0;
     this->for_each_near(b, cell, x, [&](int j, const V& r, T r2) LGIW_INLINE {
@@ -1102,7 +1138,8 @@ struct WaterForces : WaterPairForces<Tr, rates> {
     rate += sum;
   }
   template <bool slips>
-  LGIW_FN void over_all_walls(int cell, const V& x, const V& v, T term_i, T rho_i, V& a, T& rate) const {
+  LGIW_FN void over_all_walls(const typename B::Cell& cell, const V& x, const V& v, T term_i, T rho_i, V& a,
+                              T& rate) const {
     if (this->wall.n) over_walls<slips>(this->nearby().wall, cell, x, v, term_i, rho_i, a, rate);
     if (this->bodies.n) over_walls<slips>(this->nearby().bodies, cell, x, v, term_i, rho_i, a, rate);
   }
@@ -1111,7 +1148,7 @@ struct WaterForces : WaterPairForces<Tr, rates> {
     const auto& p = this->parameters;
     const auto& w = this->water;
     if (this->superfluous() || i >= w.start[this->grid.cells]) return {};
-    const int cell = this->cell_of(w, i);
+    const auto cell = this->cell_of(w, i);
     const V x = B::load(w.x, i), v = B::load(w.v, i);
     const T term_i = w.term[i], rho_i = p.eos.rho0 + w.excess[i], rho0 = p.eos.rho0;
     T mu_max = 0, rate = 0, at_walls = 0;
@@ -1169,12 +1206,12 @@ struct SoilPairForces : Pass<Tr> {
     B::add(s.a, i, T(1), over_soil(i, this->cell_of(s, i), B::load(s.x, i), B::load(s.v, i), mu_max));
     return {T(0), mu_max};
   }
-  LGIW_FN V over_soil(int i, int cell, const V& x, const V& v, T& mu_max) const {
+  LGIW_FN V over_soil(int i, const typename B::Cell& cell, const V& x, const V& v, T& mu_max) const {
     return this->parameters.artificial_stress > 0 ? over_soil<true>(i, cell, x, v, mu_max)
                                                   : over_soil<false>(i, cell, x, v, mu_max);
   }
   template <bool artificial>
-  LGIW_FN V over_soil(int i, int cell, const V& x, const V& v, T& mu_max) const {
+  LGIW_FN V over_soil(int i, const typename B::Cell& cell, const V& x, const V& v, T& mu_max) const {
     const auto& s = this->nearby().soil;
     const auto kernel = this->parameters.kernel;
     const auto viscosity = this->parameters.soil_viscosity;
@@ -1231,7 +1268,7 @@ struct SoilForces : SoilPairForces<Tr> {
     const auto& p = this->parameters;
     const auto& s = this->soil;
     if (this->superfluous() || i >= s.start[this->grid.cells]) return {};
-    const int cell = this->cell_of(s, i);
+    const auto cell = this->cell_of(s, i);
     const V x = B::load(s.x, i), v = B::load(s.v, i);
     const Stress<T, D> sigma = B::load_stress(s.stress, i);
     T mu_max = 0;
@@ -1267,7 +1304,7 @@ struct SoilForces : SoilPairForces<Tr> {
     T weight, friction;  // and coefficient of friction, times weight: sums of the kernel gradient along the normals
   };
   template <class Walls>
-  LGIW_FN void of_walls(const Walls& b, int cell, const V& x, const V& v, const Stress<T, D>& sigma,
+  LGIW_FN void of_walls(const Walls& b, const typename B::Cell& cell, const V& x, const V& v, const Stress<T, D>& sigma,
                         WallForce& sum) const {
     const auto& p = this->parameters;
     const T inverse_rho2 = 1 / (p.soil_density * p.soil_density);

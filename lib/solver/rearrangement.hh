@@ -1,23 +1,35 @@
 // What happens to the fields of a phase when its particles are brought into another order.
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 
 namespace lgiw {
 
-/// One field of n values that is gathered into another array, or rounded into one. Lists of them are carried out in
-/// order: a field may go to where the one before it has come from.
+/// One field of n values that is gathered into another array, copied or rounded into one. Lists of them are carried out
+/// in order: a field may go to where the one before it has come from.
 class Rearrangement {
  public:
   /// to[i] = from[order[i]].
   template <class U>
   static Rearrangement gathered(U* to, const U* from) {
-    return {kind_of<U>(), to, from};
+    return {kind_of<U>(), true, to, from};
+  }
+  /// to[i] = from[i].
+  template <class U>
+  static Rearrangement copied(U* to, const U* from) {
+    return {kind_of<U>(), false, to, from};
   }
   /// to[i] = from[i], in single precision.
-  static Rearrangement rounded(float* to, const double* from) { return {Kind::rounded, to, from}; }
+  static Rearrangement rounded(float* to, const double* from) { return {Kind::rounded, false, to, from}; }
 
-  bool gathers() const { return kind_ != Kind::rounded; }
+  bool gathers() const { return gathers_; }
+  /// Bytes of a value where both arrays have the same type, else 0.
+  std::size_t width() const {
+    return kind_ == Kind::rounded ? 0 : (kind_ == Kind::doubles ? sizeof(double) : sizeof(float));
+  }
+  void* to() const { return to_; }
+  const void* from() const { return from_; }
   /// Calls f(to, from) with the pointers as they were given.
   template <class F>
   void with_types(const F& f) const {
@@ -37,7 +49,8 @@ class Rearrangement {
 
  private:
   enum class Kind { floats, doubles, ints, numbers, rounded };
-  Rearrangement(Kind kind, void* to, const void* from) : kind_(kind), to_(to), from_(from) {}
+  Rearrangement(Kind kind, bool gathers, void* to, const void* from)
+      : kind_(kind), gathers_(gathers), to_(to), from_(from) {}
   template <class U>
   static constexpr Kind kind_of() {
     if constexpr (std::is_same_v<U, float>)
@@ -51,6 +64,7 @@ class Rearrangement {
   }
 
   Kind kind_;
+  bool gathers_;
   void* to_;
   const void* from_;
 };

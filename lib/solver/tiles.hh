@@ -37,7 +37,7 @@ template <class Machine, class T, int D>
 class NearCells {
  public:
   NearCells(const Grid<T, D>& grid, T h)
-      : grid_(grid), reach_(T(2 * reach_in_supports) * h), steps_(double(reach_) * grid.inverse_width) {
+      : grid_(grid), reach_(T(2 * reach_in_supports) * h), steps_(double(reach_) * grid.inverse_width[0]) {
     assert(steps_ < std::sqrt(2.0));  // mark()
   }
 
@@ -142,8 +142,8 @@ class NearCells {
     double low, high;
     int n, stride, first, last;
     Slabs(const NearCells& near, const NearBox<T, D>& box, int k)
-        : low((double(box.low[k]) - near.grid_.low[k]) * near.grid_.inverse_width),
-          high((double(box.high[k]) - near.grid_.low[k]) * near.grid_.inverse_width),
+        : low((double(box.low[k]) - near.grid_.low[k]) * near.grid_.inverse_width[k]),
+          high((double(box.high[k]) - near.grid_.low[k]) * near.grid_.inverse_width[k]),
           n(near.grid_.n[k]),
           stride(near.grid_.stride[k]),
           first(held(low - near.steps_)),

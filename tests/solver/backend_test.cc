@@ -38,18 +38,20 @@ void check_sort(int n, int cells, int threads, double stirred) {
   backend.upload(keys, key.data());
   const Backend::Array<double> field(n), moved(n);
   const Backend::Array<float> rounded(n);
+  const Backend::Array<double> copied(n);
   for (int round = 0; round < 2; ++round) {
-    backend.sort_by_cell(keys, cells, order, start, field, moved);
+    backend.sort_by_cell(keys, cells, order.data(), start, nullptr, nullptr);
     // There and back, as fields follow a sort: the second goes to where the first came from.
     for (int i = 0; i < n; ++i) field.data()[i] = 0.1 * i + round, moved.data()[i] = -1;
     backend.rearrange(
         std::size_t(n), order.data(),
         {Rearrangement::gathered(moved.data(), field.data()), Rearrangement::gathered(field.data(), moved.data()),
-         Rearrangement::rounded(rounded.data(), field.data())});
+         Rearrangement::rounded(rounded.data(), field.data()), Rearrangement::copied(copied.data(), field.data())});
     for (int k = 0; k < n; ++k) {
       ASSERT_EQ(moved.data()[k], 0.1 * expected[k] + round) << k;
       ASSERT_EQ(field.data()[k], 0.1 * expected[expected[k]] + round) << k;
       ASSERT_EQ(rounded.data()[k], float(field.data()[k])) << k;
+      ASSERT_EQ(copied.data()[k], field.data()[k]) << k;
     }
   }
   omp_set_num_threads(before);

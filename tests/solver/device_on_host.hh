@@ -95,16 +95,15 @@ class DeviceOnHost {
       limits->mu = std::max(limits->mu, mine.mu);
     }
   }
-  template <class A, class B>
-  void sort_by_cell(const Array<int>& key, int cells, const Array<int>& order, const Array<int>& start,
-                    const Array<A>& spare, const Array<B>& other_spare) {
+  void sort_by_cell(const Array<int>& key, int cells, int* order, const Array<int>& start, int* spare,
+                    int* other_spare) {
     const Open open;
     ++sorts();
     int *const keys = key.data(), n = int(key.size());
-    std::memset(static_cast<void*>(spare.data()), 0xff, sizeof(int) * std::size_t(n));  // it may be used as memory
-    std::memset(static_cast<void*>(other_spare.data()), 0xff, sizeof(int) * std::size_t(n));
-    std::iota(order.data(), order.data() + n, 0);
-    std::stable_sort(order.data(), order.data() + n, [&](int a, int b) { return keys[a] < keys[b]; });
+    std::memset(spare, 0xff, sizeof(int) * std::size_t(n));  // it may be used as memory
+    std::memset(other_spare, 0xff, sizeof(int) * std::size_t(n));
+    std::iota(order, order + n, 0);
+    std::stable_sort(order, order + n, [&](int a, int b) { return keys[a] < keys[b]; });
     std::sort(keys, keys + n);
     const CellStart write_start{keys, n, cells, start.data()};
     for (int k : any_order(CellStart::runs(cells))) write_start(k);

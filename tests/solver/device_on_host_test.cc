@@ -59,8 +59,13 @@ TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-4);
 
 TEST(DeviceOnHost, EqualsCpuInWideCells) {
   const double low[3] = {0, 0, 0}, high[3] = {40, 40, 40};
-  EXPECT_EQ((Grid<double, 3>::of_device(low, high, 0.5, 1e3).margin), 1) << "500 cells a particle";
-  EXPECT_EQ((Grid<double, 3>::of_device(low, high, 0.5, 1e5).margin), 2);
+  const auto cells = [&](double particles) {
+    const auto grid = Grid<double, 3>::of_device(low, high, 0.5, particles);
+    return std::pair(grid.edge, grid.split);
+  };
+  EXPECT_EQ(cells(1e3), std::pair(1, 1)) << "500 cells a particle";
+  EXPECT_EQ(cells(4e4), std::pair(2, 1));
+  EXPECT_EQ(cells(1e5), std::pair(2, 2));
   DeviceOnHost::wide_cells() = true;
   compare(2, NumberType::double_, 1e-9), compare(3, NumberType::double_, 1e-9);
   DeviceOnHost::wide_cells() = false;
