@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -434,9 +433,6 @@ class ParticleSimulation final : public Simulation {
   }
   std::string device() const override { return backend_.name(); }
   bool leaves_host_free() const override { return !Backend::on_host; }
-  void between_phases(const std::function<void()>& call) override {
-    if (Backend::on_host) between_phases_ = call;
-  }
   std::string description() const override {
     const char* number = type_ == NumberType::single_ ? "single" : (type_ == NumberType::mixed ? "mixed" : "double");
     const std::string instructions = backend_.instructions();
@@ -924,7 +920,6 @@ class ParticleSimulation final : public Simulation {
   }
   template <class F>
   void timed(const char* phase, F&& f) {
-    if (between_phases_) between_phases_();
     const double start = backend_.now();
     f();
     times_[phase] += backend_.now() - start;
@@ -1108,7 +1103,6 @@ class ParticleSimulation final : public Simulation {
   Array<StepState> state_;
   Array<Limits<T>> limits_;
   std::map<std::string, double> times_;
-  std::function<void()> between_phases_;
 };
 
 template <class Backend, class Tr>

@@ -148,7 +148,6 @@ class Runner {
       refuse_unfinished();
     initial_soil_.assign(data.soil.points.begin(), data.soil.points.end());
     simulation_ = make_simulation(c, model_, make_particles(c, data), options.log);
-    simulation_->between_phases([this] { shares_threads(); });
     if (options.wrap) simulation_ = options.wrap(std::move(simulation_));
     log("model: " + simulation_->description());
     describe();
@@ -467,10 +466,9 @@ class Runner {
     ++outputs_;
     if (simulation_->leaves_host_free()) return make_output_beside(threads_);
     const int for_output = std::max(1, threads_ / 8), for_steps = threads_ - for_output;
-    // A phase that has begun with fewer threads ends with them, however soon the output is done. Where the longest of a
-    // step would take longer for it than half of an output, all threads make the output between two steps.
-    const double longest_phase = 0.4 * step_seconds_;
-    if (for_steps == 0 || longest_phase * for_output / for_steps > 0.5 * output_seconds_) return make_output();
+    // A step that has begun with fewer threads ends with them, however soon the output is done. Where that takes longer
+    // than half of an output, all threads make it between two steps.
+    if (for_steps == 0 || step_seconds_ * for_output / for_steps > 0.5 * output_seconds_) return make_output();
     make_output_beside(for_output);
     omp_set_num_threads(for_steps);
   }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -96,8 +95,6 @@ class Simulation {
   virtual std::string device() const = 0;       // what it runs on
   /// Whether another thread of the host can do something else while it steps.
   virtual bool leaves_host_free() const = 0;
-  /// To be called between two phases of a step, where the number of threads may change. Not where a device steps.
-  virtual void between_phases(const std::function<void()>&) {}
   /// What this scene does not need and therefore neither holds nor runs, with the bytes saved.
   virtual std::vector<std::string> left_out() const = 0;
 };
