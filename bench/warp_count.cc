@@ -100,9 +100,9 @@ int main() {
               "neighbours", "rows", "looks", "pairs");
   bool all_found = true;
   for (const double spacings : {1.5, 2.0})
-    for (const auto [edge, split] : {std::pair(1, 1), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1)}) {
+    for (const auto& [edge, split] : {std::pair(1, 1), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1)}) {
       const Scene scene(spacings, edge, split);
-      for (const auto [list, stroke] :
+      for (const auto& [list, stroke] :
            {std::pair(CudaDevice::list, 1), std::pair(CudaDevice::list, 4), std::pair(48, 4)}) {
         Count sum;
         double there = 0;

@@ -33,12 +33,15 @@ class DeviceOnHost {
   static constexpr int steps_per_check = 16;
   template <class T, int D>
   static Grid<T, D> grid(const double* low, const double* high, double h, double particles) {
-    return Grid<T, D>::of_device(low, high, h, wide_cells() ? -1e9 : particles);
+    const double reach = Grid<T, D>::reach_of_device(h);
+    if (cells() == Cells::even) return Grid<T, D>(low, high, reach / 2, 2, 1);
+    return Grid<T, D>::of_device(low, high, h, cells() == Cells::wide ? -1e9 : particles);
   }
-  /// Whether devices made from now on take the cells of a domain that is nearly empty.
-  static bool& wide_cells() {
-    static bool so = false;
-    return so;
+  /// Which cells devices made from now on take: those of a domain that is rather or nearly empty.
+  enum class Cells { usual, even, wide };
+  static Cells& cells() {
+    static Cells which = Cells::usual;
+    return which;
   }
 
   explicit DeviceOnHost(unsigned seed = 1) : random_(seed) {}

@@ -57,7 +57,7 @@ TEST(DeviceOnHost, EqualsCpuInDouble3D) { compare(3, NumberType::double_, 1e-9);
 TEST(DeviceOnHost, EqualsCpuInMixed3D) { compare(3, NumberType::mixed, 1e-4); }
 TEST(DeviceOnHost, EqualsCpuInSingle3D) { compare(3, NumberType::single_, 1e-4); }
 
-TEST(DeviceOnHost, EqualsCpuInWideCells) {
+TEST(DeviceOnHost, EqualsCpuInOtherCells) {
   const double low[3] = {0, 0, 0}, high[3] = {40, 40, 40};
   const auto cells = [&](double particles) {
     const auto grid = Grid<double, 3>::of_device(low, high, 0.5, particles);
@@ -66,9 +66,11 @@ TEST(DeviceOnHost, EqualsCpuInWideCells) {
   EXPECT_EQ(cells(1e3), std::pair(1, 1)) << "500 cells a particle";
   EXPECT_EQ(cells(4e4), std::pair(2, 1));
   EXPECT_EQ(cells(1e5), std::pair(2, 2));
-  DeviceOnHost::wide_cells() = true;
-  compare(2, NumberType::double_, 1e-9), compare(3, NumberType::double_, 1e-9);
-  DeviceOnHost::wide_cells() = false;
+  for (auto which : {DeviceOnHost::Cells::even, DeviceOnHost::Cells::wide}) {
+    DeviceOnHost::cells() = which;
+    compare(2, NumberType::double_, 1e-9), compare(3, NumberType::double_, 1e-9);
+  }
+  DeviceOnHost::cells() = DeviceOnHost::Cells::usual;
 }
 
 /// What a scene of twice the particles in the same cells holds more: what 200 M particles need of 80 GB.
