@@ -1,4 +1,4 @@
-// Which cells a pass of the CPU may skip.
+// Which cells a pass of the CPU may skip, and in which rows of cells one of a device looks.
 #include "solver/tiles.hh"
 
 #include <gtest/gtest.h>
@@ -123,6 +123,56 @@ void expect_rows_hold_what_is_near() {
 TEST(Tiles, RowsHoldWhatIsNear) {
   expect_rows_hold_what_is_near<2>();
   expect_rows_hold_what_is_near<3>();
+}
+
+/// The rows of a particle on a device hold every particle within reach of it, once.
+template <class T, int D>
+void expect_device_rows_hold_what_is_near(int edge, int split) {
+  SCOPED_TRACE(testing::Message() << D << "-D, cells " << edge << " times within reach, along rows " << split);
+  const std::array<double, 3> low{-3, 1e4, 50}, size{5, 3, 4};
+  std::array<double, 3> high;
+  for (std::size_t k = 0; k < 3; ++k) high[k] = low[k] + size[k];
+  const Grid<T, D> grid(low.data(), high.data(), Grid<T, D>::reach_of_device(h) / edge, edge, split);
+  std::vector<Vec<T, D>> x;
+  for (const auto& p : anywhere<D>(3000, size, 5)) {
+    Vec<T, D> moved;
+    for (int k = 0; k < D; ++k) moved.c[k] = T(low[std::size_t(k)] + double(p.c[k]));
+    x.push_back(moved);
+  }
+  std::sort(x.begin(), x.end(), [&](const auto& a, const auto& b) { return grid.cell(a) < grid.cell(b); });
+  std::vector<int> start(std::size_t(grid.cells) + 1);
+  for (const auto& p : x) ++start[std::size_t(grid.cell(p)) + 1];
+  for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+
+  const T reach = T(2 * reach_in_supports) * T(h);
+  std::size_t near = 0, looked_at = 0;
+  for (const auto& p : x) {
+    std::vector<int> held(x.size(), 0);
+    NearRows<T, D> rows(grid, grid.in_cell(p));
+    for (int k = rows.count(); k > 0; --k) {
+      int begin, end;
+      rows.next(start.data(), begin, end);
+      ASSERT_TRUE(0 <= begin && begin <= end && end <= int(x.size()));
+      for (int j = begin; j < end; ++j) ++held[std::size_t(j)], ++looked_at;
+    }
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const bool is_near = dot(p - x[j], p - x[j]) < reach * reach;
+      near += is_near;
+      ASSERT_LE(held[j], 1);
+      ASSERT_TRUE(held[j] == 1 || !is_near) << j;
+    }
+  }
+  EXPECT_GT(near, 30 * x.size());
+  // All of the rows of a cell would be 6.4 times as many (cells as wide as the reach), or 3.7 (half as wide).
+  EXPECT_LT(double(looked_at), (edge == 1 ? 5 : 3) * double(near)) << "rows that hold too much";
+}
+TEST(Tiles, RowsOfADeviceHoldWhatIsNear) {
+  for (const auto& [edge, split] : {std::pair(2, 2), std::pair(2, 1), std::pair(1, 1), std::pair(3, 2)}) {
+    expect_device_rows_hold_what_is_near<float, 2>(edge, split);
+    expect_device_rows_hold_what_is_near<float, 3>(edge, split);
+    expect_device_rows_hold_what_is_near<double, 2>(edge, split);
+    expect_device_rows_hold_what_is_near<double, 3>(edge, split);
+  }
 }
 
 template <int D>
