@@ -1,5 +1,7 @@
 #include "measure/column_surface.hh"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -140,8 +142,19 @@ class PhaseBins {
     bin_.resize(count);
 #pragma omp parallel for
     for (std::size_t k = 0; k < count; ++k) bin_[k] = bin_of(first + k);
-    for (int64_t b : bin_)
-      if (b >= 0) ++start_[b + 1];
+    const bool together = count > 20000 && omp_get_max_threads() > 1;  // atomic sums cost more than plain ones
+    if (together) {
+#pragma omp parallel for schedule(static)
+      for (std::size_t k = 0; k < count; ++k) {
+        if (bin_[k] < 0) continue;
+        std::size_t& sum = start_[std::size_t(bin_[k]) + 1];
+#pragma omp atomic
+        ++sum;
+      }
+    } else {
+      for (int64_t b : bin_)
+        if (b >= 0) ++start_[std::size_t(b) + 1];
+    }
     low_ = {grid_.nx, grid_.ny}, high_ = {0, 0};
     for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
       if (start_[b + 1] > 0) {
@@ -153,8 +166,22 @@ class PhaseBins {
     // Numbers that sort like the height, from the top, and then like the index, which leaves one order only.
     order_.resize(start_.back());
     next_.assign(start_.begin(), start_.end() - 1);
-    for (std::size_t k = 0; k < count; ++k)
-      if (bin_[k] >= 0) order_[next_[bin_[k]]++] = uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
+    const auto number = [&](std::size_t k) {
+      return uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
+    };
+    if (together) {
+#pragma omp parallel for schedule(static)
+      for (std::size_t k = 0; k < count; ++k) {
+        if (bin_[k] < 0) continue;
+        std::size_t &free = next_[std::size_t(bin_[k])], at;
+#pragma omp atomic capture
+        at = free++;
+        order_[at] = number(k);
+      }
+    } else {
+      for (std::size_t k = 0; k < count; ++k)
+        if (bin_[k] >= 0) order_[next_[std::size_t(bin_[k])]++] = number(k);
+    }
 
     for (auto* values : {&x_, &y_, &z_}) values->resize(order_.size() + lanes);
     if (particles.velocity) square_speed_.resize(order_.size());

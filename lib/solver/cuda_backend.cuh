@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,22 @@ struct CudaBackend {
   using Array = BackendArray<T, Memory>;
   template <class T, int D>
   using Tiles = NoTiles<T, D>;
+  /// Of the host, to which a device copies at full speed: the system must not move it meanwhile. Where it will not hold
+  /// that much still, copies are slower.
+  struct HostMemory {
+    static void* take(std::size_t bytes) {
+      void* const data = ::operator new(bytes, std::align_val_t(page));
+      if (cudaHostRegister(data, bytes, cudaHostRegisterDefault) != cudaSuccess) cudaGetLastError();
+      return data;
+    }
+    static void give(void* data) {
+      if (cudaHostUnregister(data) != cudaSuccess) cudaGetLastError();
+      ::operator delete(data, std::align_val_t(page));
+    }
+    static constexpr std::size_t page = 4096;
+  };
+  template <class T>
+  using HostArray = BackendArray<T, HostMemory>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {

@@ -40,6 +40,8 @@ struct OpenMpBackend {
   };
   template <class T>
   using Array = BackendArray<T, Memory>;
+  template <class T>
+  using HostArray = Array<T>;
   using Tile = TileMemory<Array<unsigned char>>;
 
   template <class T>

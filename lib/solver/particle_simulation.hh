@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "base/error.hh"
+#include "solver/particle_state.hh"
 #include "solver/passes.hh"
 #include "solver/simulation.hh"
 
@@ -296,23 +298,40 @@ class ParticleSimulation final : public Simulation {
     finish(false);
   }
 
-  void download(ParticleState& out) const override {
+  void download(ParticleState& out) const override { begin_download(out)(); }
+  std::function<void()> begin_download(ParticleState& out) const override {
+    std::function<void()> water = [] {}, soil = [] {};
     if (n_water_) {
-      const auto id = readable(water_.id);
-      interleave(out.water_x, water_.position, id), interleave(out.water_v, water_.v, id);
-      by_id(out.water_excess, water_.excess, id);
-      out.water_pressure.resize(out.water_excess.size());
-      const EquationOfState<double> eos(model_.water_density, model_.sound_speed);
-      for (std::size_t i = 0; i < out.water_excess.size(); ++i)
-        out.water_pressure[i] = float(eos.pressure(double(out.water_excess[i])));
-      lost(out.water_lost, water_.start, id);
+      const std::size_t n = std::size_t(n_water_), there = std::size_t(active(water_.start));
+      const auto* const id = staged(water_.id, staged_.water_id);
+      const auto position = staged_vectors(water_.position, staged_.water_position);
+      const auto velocity = staged_vectors(water_.v, staged_.water_v);
+      const Fields<T, 1> excess{{staged(water_.excess, staged_.water_excess)}};
+      water = [=, &out, density = model_.water_density, sound_speed = model_.sound_speed] {
+        bring_by_id(id, n, position.of, out.water_x), bring_by_id(id, n, velocity.of, out.water_v);
+        bring_by_id(id, n, excess.of, out.water_excess);
+        pressures_at(out.water_excess, density, sound_speed, out.water_pressure);
+        lost_by_id(id, n, there, out.water_lost);
+      };
     }
     if (n_soil_) {
-      const auto id = readable(soil_.id);
-      interleave(out.soil_x, soil_.position, id), interleave(out.soil_v, soil_.v, id);
-      by_id(out.soil_adps, soil_.adps, id), stresses(out.soil_stress, soil_.stress, id);
-      lost(out.soil_lost, soil_.start, id);
+      const std::size_t n = std::size_t(n_soil_), there = std::size_t(active(soil_.start));
+      const auto* const id = staged(soil_.id, staged_.soil_id);
+      const auto position = staged_vectors(soil_.position, staged_.soil_position);
+      const auto velocity = staged_vectors(soil_.v, staged_.soil_v);
+      const Fields<T, 1> adps{{staged(soil_.adps, staged_.soil_adps)}};
+      Fields<T, 6> stress;
+      for (int c = 0; c < S; ++c) stress.of[stress_axis(c)] = staged(soil_.stress[c], staged_.soil_stress[c]);
+      soil = [=, &out] {
+        bring_by_id(id, n, position.of, out.soil_x), bring_by_id(id, n, velocity.of, out.soil_v);
+        bring_by_id(id, n, adps.of, out.soil_adps), bring_by_id(id, n, stress.of, out.soil_stress);
+        lost_by_id(id, n, there, out.soil_lost);
+      };
     }
+    const auto bring = [water, soil] { water(), soil(); };
+    if (!Backend::on_host) return bring;
+    bring();  // what is read where it lies changes with the next step
+    return [] {};
   }
   void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const override {
     pressure.clear(), stress.clear();
@@ -1023,41 +1042,44 @@ class ParticleSimulation final : public Simulation {
   }
 
   // Into the order of the particles file.
-  using Ids = Readable<unsigned>;
-  void by_id(std::vector<float>& out, const Array<T>& field, const Ids& id) const {
-    const auto values = readable(field);
-    out.resize(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) out[id[i]] = float(values[i]);
-  }
-  template <class Out, class In>
-  void interleave(std::vector<Out>& out, const Array<In>* field, const Ids& id, double factor = 1) const {
-    out.assign(3 * id.size(), Out(0));
-    for (int k = 0; k < D; ++k) {
-      const auto values = readable(field[k]);
-      for (std::size_t i = 0; i < id.size(); ++i)
-        out[3 * std::size_t(id[i]) + axis(k)] = Out(factor * double(values[i]));
+  template <class U, std::size_t width>
+  struct Fields {
+    const U* of[width] = {};
+  };
+  template <class U>
+  using OnHost = typename Backend::template HostArray<U>;
+  /// Of a device: copies of the fields that begin_download() is to bring into order, kept for the next time.
+  struct Staged {
+    OnHost<unsigned> water_id, soil_id;
+    OnHost<P> water_position[D], soil_position[D];
+    OnHost<T> water_v[D], soil_v[D], water_excess, soil_adps, soil_stress[S];
+  };
+  /// Values that the host can read: until the next step, or on a device until they are staged again.
+  template <class U>
+  const U* staged(const Array<U>& from, OnHost<U>& copy) const {
+    if constexpr (Backend::on_host) {
+      return from.data();
+    } else {
+      if (copy.size() != from.size()) copy = OnHost<U>(from.size());
+      backend_.download(copy.data(), from);
+      return copy.data();
     }
+  }
+  template <class U>
+  Fields<U, 3> staged_vectors(const Array<U> (&from)[D], OnHost<U> (&copy)[D]) const {
+    Fields<U, 3> fields;
+    for (int k = 0; k < D; ++k) fields.of[axis(k)] = staged(from[k], copy[k]);
+    return fields;
   }
   template <class Phase>
   void forces(std::vector<double>& out, const Phase& phase, double mass) const {
     const auto id = readable(phase.id);
-    interleave(out, phase.a, id, mass);
-    for (std::size_t i = 0, there = active(phase.start); i < id.size(); ++i)
-      for (int k = 0; k < D; ++k) {
-        double& force = out[3 * std::size_t(id[i]) + axis(k)];
-        force = i < there ? force - mass * double(p_.gravity.c[k]) : 0;  // no pass touches what is lost
-      }
-  }
-  void stresses(std::vector<float>& out, const Array<T>* field, const Ids& id) const {
-    out.assign(6 * id.size(), 0.f);
-    for (int c = 0; c < S; ++c) {
-      const auto values = readable(field[c]);
-      for (std::size_t i = 0; i < id.size(); ++i) out[6 * std::size_t(id[i]) + stress_axis(c)] = float(values[i]);
-    }
-  }
-  void lost(std::vector<unsigned char>& out, const Array<int>& start, const Ids& id) const {
-    out.assign(id.size(), 0);
-    for (std::size_t i = active(start); i < id.size(); ++i) out[id[i]] = 1;
+    std::vector<std::unique_ptr<Readable<T>>> a;
+    out.assign(3 * id.size(), 0.0);
+    for (int k = 0; k < D; ++k) a.push_back(std::make_unique<Readable<T>>(backend_, phase.a[k]));
+    for (std::size_t i = 0, there = active(phase.start); i < there; ++i)  // no pass touches what is lost
+      for (int k = 0; k < D; ++k)
+        out[3 * std::size_t(id[i]) + axis(k)] = mass * (double((*a[k])[i]) - double(p_.gravity.c[k]));
   }
 
   /// Everything that a step reads from the one before, in the sorted order, so that a resumed run repeats the same
@@ -1089,6 +1111,7 @@ class ParticleSimulation final : public Simulation {
   static constexpr std::size_t fours_to_spare = 4;  // passes look at four of them at a stroke, beyond the last, too
 
   mutable Backend backend_;
+  mutable Staged staged_;
   ModelParameters model_;
   NumberType type_;
   int n_water_, n_soil_, n_wall_, n_bodies_;  // n_wall_: those that stand still; n_bodies_: those that move

@@ -125,6 +125,14 @@ void give_back_large_blocks() {
 #endif
 }
 
+/// One list after the other, by all threads.
+template <class From, class To>
+void join(const std::vector<From>& first, const std::vector<From>& second, std::vector<To>& both) {
+  both.resize(first.size() + second.size());
+#pragma omp parallel for schedule(static) if (both.size() > 20000)
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] = To(i < first.size() ? first[i] : second[i - first.size()]);
+}
+
 class Runner {
  public:
   Runner(const Case& c, const ParticleData& data, const RunOptions& options)
@@ -454,7 +462,7 @@ class Runner {
   /// while they are made, on a CPU with the threads that are left: most of an output is one after the other.
   void record() {
     wait_for_output();
-    simulation_->download(output_.state);
+    output_.bring = simulation_->begin_download(output_.state);
     output_.at = simulation_->state();
     output_.with_frame = schedule_.with_frame(outputs_);
     // Costs half a step, in whose phases it is counted, and changes slowly.
@@ -500,16 +508,13 @@ class Runner {
     output_seconds_ = elapsed() - begin;
   }
   void write_output() {
+    output_.bring();
     ParticleState& s = output_.state;
     const StepState& st = output_.at;
     Frame& frame = output_.frame;
     frame.time = st.time;
-    frame.points.assign(s.water_x.begin(), s.water_x.end());
-    frame.points.insert(frame.points.end(), s.soil_x.begin(), s.soil_x.end());
-    frame.velocity = s.water_v;
-    frame.velocity.insert(frame.velocity.end(), s.soil_v.begin(), s.soil_v.end());
-    frame.lost = s.water_lost;
-    frame.lost.insert(frame.lost.end(), s.soil_lost.begin(), s.soil_lost.end());
+    join(s.water_x, s.soil_x, frame.points), join(s.water_v, s.soil_v, frame.velocity);
+    join(s.water_lost, s.soil_lost, frame.lost);
     const std::size_t nw = s.water_x.size() / 3, ns = s.soil_x.size() / 3;
 
     const ColumnSurfaces& surfaces = surface_map_(column_particles(header_, frame));
@@ -790,6 +795,7 @@ class Runner {
   /// Of the last output, whose memory the next one uses: new from the system it costs page faults.
   struct {
     ParticleState state;
+    std::function<void()> bring;  // what is left to do for it
     StepState at;
     double momentum_residual = 0;
     bool with_frame = false;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -79,6 +80,12 @@ class Simulation {
   /// Begins or ends settling: velocities and time are reset to zero.
   virtual void settle(Settling mode) = 0;
   virtual void download(ParticleState& out) const = 0;
+  /// The same in two parts: what the solver must stand still for, and the function returned, which is left to do until
+  /// `out` holds the state, whatever the solver does meanwhile. It comes before the next call.
+  virtual std::function<void()> begin_download(ParticleState& out) const {
+    download(out);
+    return [] {};
+  }
   /// Pressure (Pa) and, with soil, the image stress at the wall particles, in the order of the particles file.
   virtual void download_walls(std::vector<float>& pressure, std::vector<float>& stress) const = 0;
   /// Where the wall particles of moving bodies are, [n,3], and their indices among the wall particles, [n].

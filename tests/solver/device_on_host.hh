@@ -54,6 +54,12 @@ class DeviceOnHost {
   using Array = BackendArray<T, Memory>;
   template <class T, int D>
   using Tiles = NoTiles<T, D>;
+  struct HostMemory {
+    static void* take(std::size_t bytes) { return ::operator new(bytes); }
+    static void give(void* data) { ::operator delete(data); }
+  };
+  template <class T>
+  using HostArray = BackendArray<T, HostMemory>;
 
   template <class T>
   void upload(const Array<T>& to, const T* from) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "backend_comparison.hh"
 #include "solver/particle_simulation.hh"
 
@@ -183,6 +185,31 @@ TEST(DeviceOnHost, ARestoredStateGoesOnTheSame) {
     other->advance(1e9, 3), other->restore(kept), other->advance(1e9, 13);
     EXPECT_TRUE(same(*whole, *other));
   }
+}
+
+/// An output is made while the solver steps on.
+TEST(DeviceOnHost, ADownloadHoldsWhatWasThere) {
+  for (int dimension : {2, 3})
+    for (const Scene& scene : scenes(dimension)) {
+      SCOPED_TRACE(scene.name);
+      const Cloud& c = scene.cloud;
+      for (bool device : {true, false}) {
+        const auto simulation = device ? on_device(c) : make_cpu_simulation(c.p, c.in, NumberType::double_);
+        simulation->advance(1e9, 3);
+        ParticleState before, held, after;
+        simulation->download(before);
+        const auto bring = simulation->begin_download(held);
+        simulation->advance(1e9, 3);
+        bring();
+        simulation->download(after);
+        const auto fields = [](const ParticleState& s) {
+          return std::tie(s.water_x, s.soil_x, s.water_v, s.soil_v, s.water_pressure, s.water_excess, s.soil_stress,
+                          s.soil_adps, s.water_lost, s.soil_lost);
+        };
+        EXPECT_TRUE(fields(held) == fields(before)) << dimension;
+        EXPECT_FALSE(fields(held) == fields(after)) << dimension;
+      }
+    }
 }
 
 /// A particle that fails stops what is queued, and is told by the smallest id of those that fail with it.

@@ -1,7 +1,11 @@
 // Pressure gauges and the error budget, by hand.
 #include "solver/diagnostics.hh"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "cloud.hh"
 #include "gtest/gtest.h"
@@ -133,6 +137,49 @@ TEST(Diagnostics, PercentileOfTheDensityErrorPassesOverOneInAThousand) {
   EXPECT_NEAR(value(row, "density_error_p999"), 0.002, 1e-9);
 }
 
+/// Of so many particles that all threads share the work.
+TEST(Diagnostics, DoNotDependOnTheNumberOfThreads) {
+  ModelParameters p;
+  p.dimension = 3, p.dp = 0.05, p.young_modulus = 1e6, p.poisson_ratio = 0.25;
+  ParticleState s;
+  std::mt19937 random(3);
+  std::lognormal_distribution<float> any(0, 1);
+  const std::size_t n = 50000;
+  const auto many = [&](auto& values, std::size_t width) {
+    values.resize(width * n);
+    for (auto& v : values) v = any(random);
+  };
+  many(s.water_x, 3), many(s.water_v, 3), many(s.water_excess, 1), many(s.water_pressure, 1);
+  many(s.soil_x, 3), many(s.soil_v, 3), many(s.soil_stress, 6), many(s.soil_adps, 1);
+  s.water_lost.assign(n, 0), s.soil_lost.assign(n, 0);
+  for (std::size_t i = 0; i < n; i += 7) s.water_lost[i] = s.soil_lost[i + 3] = 1;
+
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const DiagnosticsRow one = diagnose(p, s, {}, {});
+  omp_set_num_threads(3);
+  const DiagnosticsRow three = diagnose(p, s, {}, {});
+  omp_set_num_threads(before);
+  EXPECT_EQ(one, three);
+  EXPECT_GT(value(one, "interpenetrating"), 100);
+
+  std::vector<double> errors, speeds;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* v = &s.soil_v[3 * i];
+    if (!s.water_lost[i]) errors.push_back(s.water_excess[i] / p.water_density);
+    if (!s.soil_lost[i]) speeds.push_back(std::hypot(double(v[0]), double(v[1]), double(v[2])));
+  }
+  const auto percentile = [](std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    return values[std::size_t(0.999 * double(values.size() - 1))];
+  };
+  EXPECT_EQ(value(one, "density_error_p999"), percentile(errors));
+  EXPECT_EQ(value(one, "max_density_error"), errors.back());
+  EXPECT_EQ(value(one, "max_soil_speed"), percentile(speeds));
+  EXPECT_NEAR(value(one, "mass"), p.dp * p.dp * p.dp * (p.water_density + p.soil_density) * double(speeds.size()),
+              1e-6);
+}
+
 /// A lattice of n^D particles; those for which `soil` says so are soil.
 template <class F>
 ParticleState lattice(const ModelParameters& p, int n, const F& soil) {
@@ -217,7 +264,8 @@ TEST(TimeSteps, SmallestAndWhatLimitedThem) {
 }
 
 TEST(TimeSteps, DiffusionHasALimitOfItsOwn) {
-  // Far below the acoustic one: delta c dt / h is at most 0.3 (leapfrog) and 0.0065 (Verlet), times the share asked for.
+  // Far below the acoustic one: delta c dt / h is at most 0.3 (leapfrog) and 0.0065 (Verlet), times the share asked
+  // for.
   for (const bool verlet : {false, true}) {
     Cloud scene = cloud({});
     scene.p.verlet = verlet, scene.p.cfl = 1, scene.p.density_diffusion = 40, scene.p.stress_diffusion = 0;
