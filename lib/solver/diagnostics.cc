@@ -137,7 +137,7 @@ class SoilCells {
     low_ = box.low, high_ = box.high;
     if (!(low_[0] <= high_[0])) return;
     // A grain flung far must not make a grid larger than the particles.
-    const double most = 2.0 * double(s.soil_lost.size()) + 1000;
+    const double most = double(s.soil_lost.size() + s.water_lost.size()) + 1000;
     for (;; width_ *= 1.25) {
       double cells = 1;
       for (std::size_t k = 0; k < 3; ++k) cells *= double(n_[k] = int64_t((high_[k] - low_[k]) / width_) + 1);

@@ -144,13 +144,17 @@ TEST(Diagnostics, DoNotDependOnTheNumberOfThreads) {
   ParticleState s;
   std::mt19937 random(3);
   std::lognormal_distribution<float> any(0, 1);
+  std::uniform_real_distribution<float> inside(0, 2);
   const std::size_t n = 50000;
   const auto many = [&](auto& values, std::size_t width) {
     values.resize(width * n);
     for (auto& v : values) v = any(random);
   };
-  many(s.water_x, 3), many(s.water_v, 3), many(s.water_excess, 1), many(s.water_pressure, 1);
-  many(s.soil_x, 3), many(s.soil_v, 3), many(s.soil_stress, 6), many(s.soil_adps, 1);
+  s.water_x.resize(3 * n), s.soil_x.resize(3 * n);
+  for (auto& x : s.water_x) x = inside(random);
+  for (auto& x : s.soil_x) x = inside(random);
+  many(s.water_v, 3), many(s.water_excess, 1), many(s.water_pressure, 1);
+  many(s.soil_v, 3), many(s.soil_stress, 6), many(s.soil_adps, 1);
   s.water_lost.assign(n, 0), s.soil_lost.assign(n, 0);
   for (std::size_t i = 0; i < n; i += 7) s.water_lost[i] = s.soil_lost[i + 3] = 1;
 
