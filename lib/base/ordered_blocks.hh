@@ -1,4 +1,4 @@
-// Loops over many values by all OpenMP threads whose result does not depend on how many there are.
+// Loops over many values by all OpenMP threads, whose result does not depend on how many there are.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,9 @@
 #include <vector>
 
 namespace lgiw {
+
+/// A loop of no more steps than this is done before other threads have begun.
+constexpr std::size_t too_few_to_share = 20000;
 
 /// each(begin, end) for blocks of [0, n), what it returns added up in the order of the blocks: Result has add(const
 /// Result&), and what Result() holds adds nothing.

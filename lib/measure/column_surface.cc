@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hh"
+#include "base/ordered_blocks.hh"
 
 namespace lgiw {
 namespace {
@@ -142,19 +143,21 @@ class PhaseBins {
     bin_.resize(count);
 #pragma omp parallel for
     for (std::size_t k = 0; k < count; ++k) bin_[k] = bin_of(first + k);
-    const bool together = count > 20000 && omp_get_max_threads() > 1;  // atomic sums cost more than plain ones
-    if (together) {
-#pragma omp parallel for schedule(static)
-      for (std::size_t k = 0; k < count; ++k) {
-        if (bin_[k] < 0) continue;
-        std::size_t& sum = start_[std::size_t(bin_[k]) + 1];
-#pragma omp atomic
-        ++sum;
+    const bool together = count > too_few_to_share && omp_get_max_threads() > 1;
+    /// What was counted so far. An atomic sum costs more than a plain one.
+    const auto count_on = [together](std::size_t& sum) {
+      std::size_t before;
+      if (together) {
+#pragma omp atomic capture
+        before = sum++;
+      } else {
+        before = sum++;
       }
-    } else {
-      for (int64_t b : bin_)
-        if (b >= 0) ++start_[std::size_t(b) + 1];
-    }
+      return before;
+    };
+#pragma omp parallel for schedule(static) if (together)
+    for (std::size_t k = 0; k < count; ++k)
+      if (bin_[k] >= 0) count_on(start_[std::size_t(bin_[k]) + 1]);
     low_ = {grid_.nx, grid_.ny}, high_ = {0, 0};
     for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
       if (start_[b + 1] > 0) {
@@ -166,22 +169,11 @@ class PhaseBins {
     // Numbers that sort like the height, from the top, and then like the index, which leaves one order only.
     order_.resize(start_.back());
     next_.assign(start_.begin(), start_.end() - 1);
-    const auto number = [&](std::size_t k) {
-      return uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
-    };
-    if (together) {
-#pragma omp parallel for schedule(static)
-      for (std::size_t k = 0; k < count; ++k) {
-        if (bin_[k] < 0) continue;
-        std::size_t &free = next_[std::size_t(bin_[k])], at;
-#pragma omp atomic capture
-        at = free++;
-        order_[at] = number(k);
-      }
-    } else {
-      for (std::size_t k = 0; k < count; ++k)
-        if (bin_[k] >= 0) order_[next_[std::size_t(bin_[k])]++] = number(k);
-    }
+#pragma omp parallel for schedule(static) if (together)
+    for (std::size_t k = 0; k < count; ++k)
+      if (bin_[k] >= 0)
+        order_[count_on(next_[std::size_t(bin_[k])])] =
+            uint64_t(descending(particles.xyz[3 * (first + k) + 2])) << 32 | k;
 
     for (auto* values : {&x_, &y_, &z_}) values->resize(order_.size() + lanes);
     if (particles.velocity) square_speed_.resize(order_.size());

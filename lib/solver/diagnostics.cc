@@ -57,7 +57,7 @@ template <class Value>
 double percentile_999(std::size_t n, const Value& value) {
   // Of many, only those are put in order that begin with the same bits as it: exponent and four bits of the fraction,
   // which order like the numbers.
-  constexpr std::size_t kinds = 1 << 15, few = 20000;
+  constexpr std::size_t kinds = 1 << 15, few = too_few_to_share;
   const auto kind = [](double v) { return std::size_t(std::bit_cast<uint64_t>(v + 0.0) >> 48); };  // no -0
   const auto rank = [](std::size_t count) { return std::size_t(0.999 * double(count - 1)); };
   std::size_t wanted = 0, before = 0;  // kind of the percentile; values of lower kinds
@@ -99,12 +99,6 @@ struct Sum {
   double value = 0;
   void add(const Sum& o) { value += o.value; }
 };
-/// The largest of one number a particle, none of which is negative.
-struct Largest {
-  double value = 0;
-  void add(const Largest& o) { value = std::max(value, o.value); }
-};
-
 /// Energy of an isotropic elastic body under the stresses [n,6]: sum V ((1 + nu) s:s - nu tr(s)^2) / 2E.
 double elastic_energy(const ModelParameters& p, const ParticleState& s, double volume) {
   const Sum sum = over_blocks<Sum>(s.soil_lost.size(), [&](std::size_t begin, std::size_t end) {
@@ -263,23 +257,21 @@ DiagnosticsRow diagnose(const ModelParameters& p, const ParticleState& s, const 
     const double stiffness = 0.5 * p.water_density * volume * p.sound_speed * p.sound_speed;
     const auto strain = [&](std::size_t i) { return s.water_excess[i] / p.water_density; };
     const auto error_of = [&](std::size_t i) { return s.water_lost[i] ? -1 : std::fabs(strain(i)); };
-    const double compression = over_blocks<Sum>(s.water_lost.size(), [&](std::size_t begin, std::size_t end) {
-                                 Sum sum;
-                                 for (std::size_t i = begin; i < end; ++i)
-                                   if (!s.water_lost[i]) sum.value += stiffness * strain(i) * strain(i);
-                                 return sum;
-                               }).value;
-    const double error = over_blocks<Largest>(s.water_lost.size(), [&](std::size_t begin, std::size_t end) {
-                           Largest largest;
-                           for (std::size_t i = begin; i < end; ++i)
-                             largest.value = std::max(largest.value, error_of(i));
-                           return largest;
-                         }).value;
-    total += compression;
-    row.emplace_back("compression_energy", compression);
+    struct Strains {
+      double energy = 0, largest = 0;
+      void add(const Strains& o) { energy += o.energy, largest = std::max(largest, o.largest); }
+    };
+    const Strains strains = over_blocks<Strains>(s.water_lost.size(), [&](std::size_t begin, std::size_t end) {
+      Strains of_block;
+      for (std::size_t i = begin; i < end; ++i)
+        if (!s.water_lost[i]) of_block.add({stiffness * strain(i) * strain(i), error_of(i)});
+      return of_block;
+    });
+    total += strains.energy;
+    row.emplace_back("compression_energy", strains.energy);
     row.emplace_back("max_water_speed", std::sqrt(w.max_speed2));
     row.emplace_back("mach_number", std::sqrt(w.max_speed2) / p.sound_speed);
-    row.emplace_back("max_density_error", error);
+    row.emplace_back("max_density_error", strains.largest);
     row.emplace_back("density_error_p999", percentile_999(s.water_lost.size(), error_of));
     row.emplace_back("lost_water", st.lost_water);
   }

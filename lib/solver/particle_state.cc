@@ -1,18 +1,14 @@
 #include "solver/particle_state.hh"
 
+#include "base/ordered_blocks.hh"
 #include "physics/water.hh"
 
 namespace lgiw {
-namespace {
-
-constexpr std::size_t few = 20000;  // are done before other threads have begun
-
-}  // namespace
 
 template <std::size_t width, class To, class From>
 void bring_by_id(const unsigned* id, std::size_t n, const From* const (&values)[width], std::vector<To>& to) {
   to.resize(width * n);
-#pragma omp parallel for schedule(static) if (n > few)
+#pragma omp parallel for schedule(static) if (n > too_few_to_share)
   for (std::size_t i = 0; i < n; ++i) {
     To* const row = to.data() + width * id[i];
     for (std::size_t k = 0; k < width; ++k) row[k] = values[k] ? To(values[k][i]) : To(0);
@@ -28,7 +24,7 @@ void pressures_at(const std::vector<float>& excess, double density, double sound
   const EquationOfState<double> eos(density, sound_speed);
   const std::size_t n = excess.size();
   pressure.resize(n);
-#pragma omp parallel for schedule(static) if (n > few)
+#pragma omp parallel for schedule(static) if (n > too_few_to_share)
   for (std::size_t i = 0; i < n; ++i) pressure[i] = float(eos.pressure(double(excess[i])));
 }
 

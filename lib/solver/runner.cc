@@ -22,6 +22,7 @@
 
 #include "base/atomic_file.hh"
 #include "base/error.hh"
+#include "base/ordered_blocks.hh"
 #include "base/provenance.hh"
 #include "files/run_file.hh"
 #include "measure/column_surface.hh"
@@ -129,7 +130,7 @@ void give_back_large_blocks() {
 template <class From, class To>
 void join(const std::vector<From>& first, const std::vector<From>& second, std::vector<To>& both) {
   both.resize(first.size() + second.size());
-#pragma omp parallel for schedule(static) if (both.size() > 20000)
+#pragma omp parallel for schedule(static) if (both.size() > too_few_to_share)
   for (std::size_t i = 0; i < both.size(); ++i) both[i] = To(i < first.size() ? first[i] : second[i - first.size()]);
 }
 
